@@ -1,0 +1,1 @@
+//! Blade sources and stream space.

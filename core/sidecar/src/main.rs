@@ -1,0 +1,2 @@
+//! The coolinggen binary.
+fn main() {}
