@@ -51,6 +51,12 @@ impl From<Curve<DVec3>> for EdgeCurve {
     }
 }
 
+impl From<RationalCurve<DVec3>> for EdgeCurve {
+    fn from(curve: RationalCurve<DVec3>) -> Self {
+        Self::Rational(curve)
+    }
+}
+
 /// A plane with parameters in millimetres along its two axes: `origin + u x + v y`, normal `x cross y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
@@ -145,6 +151,30 @@ pub enum SurfaceGeometry {
     Revolution(Revolution),
 }
 
+impl From<Surface<DVec3>> for SurfaceGeometry {
+    fn from(surface: Surface<DVec3>) -> Self {
+        Self::BSpline(surface)
+    }
+}
+
+impl From<RationalSurface<DVec3>> for SurfaceGeometry {
+    fn from(surface: RationalSurface<DVec3>) -> Self {
+        Self::Rational(surface)
+    }
+}
+
+impl From<Plane> for SurfaceGeometry {
+    fn from(surface: Plane) -> Self {
+        Self::Plane(surface)
+    }
+}
+
+impl From<Revolution> for SurfaceGeometry {
+    fn from(surface: Revolution) -> Self {
+        Self::Revolution(surface)
+    }
+}
+
 impl ParametricSurface<DVec3> for SurfaceGeometry {
     /// Planes are unbounded and revolutions unbounded in theta; they answer with an infinite interval there.
     fn domain(&self) -> ((f64, f64), (f64, f64)) {
@@ -173,7 +203,8 @@ impl ParametricSurface<DVec3> for SurfaceGeometry {
         match self {
             Self::BSpline(s) => s.first_derivatives(u, v),
             Self::Plane(s) => (self.point(u, v), s.x, s.y),
-            _ => {
+            Self::Rational(s) => s.first_derivatives(u, v),
+            Self::Revolution(_) => {
                 let d = self.derivatives(u, v);
                 (d.point, d.u, d.v)
             }

@@ -1,1 +1,13 @@
-//! Cooling.
+//! From a design to named solids: the schema, the plan, chambers, radial holes, metal and coolant.
+//!
+//! [`design::Design::from_json`] reads a document and finds all its faults, [`generate`] builds it. Nothing here
+//! knows of files other than those the design names.
+
+pub mod build;
+pub mod design;
+mod generate;
+pub mod plan;
+pub mod report;
+pub mod section;
+
+pub use generate::{Generated, generate};

@@ -67,6 +67,34 @@ pub enum NurbsError {
         /// End of the domain.
         end: f64,
     },
+    /// A knot that would occur more often than the degree allows.
+    Multiplicity {
+        /// The knot.
+        knot: f64,
+        /// How often it may occur.
+        greatest: usize,
+    },
+    /// Pieces that should meet and do not.
+    NotJoined {
+        /// Index of the piece that starts elsewhere.
+        index: usize,
+        /// Distance to the end of the piece before.
+        gap: f64,
+    },
+    /// Curves that should meet in points run together.
+    Coincident {
+        /// Where that starts, as a parameter of the first curve, as far as it was examined.
+        from: f64,
+        /// Where it ends, as far as it was examined.
+        to: f64,
+    },
+    /// A number that a method cannot work with: negative, not finite, or of no use.
+    BadArgument {
+        /// What the number is.
+        what: &'static str,
+        /// The number given.
+        value: f64,
+    },
 }
 
 impl fmt::Display for NurbsError {
@@ -92,6 +120,12 @@ impl fmt::Display for NurbsError {
             Self::OutOfDomain { value, start, end } => {
                 write!(f, "parameter {value} is outside [{start}, {end}]")
             }
+            Self::Multiplicity { knot, greatest } => {
+                write!(f, "knot {knot} would occur more than {greatest} times")
+            }
+            Self::NotJoined { index, gap } => write!(f, "piece {index} starts {gap:e} off the end before"),
+            Self::Coincident { from, to } => write!(f, "the curves run together from {from} to {to}"),
+            Self::BadArgument { what, value } => write!(f, "{what} cannot be {value}"),
         }
     }
 }

@@ -136,63 +136,125 @@ impl Knots {
     /// Basis functions and their derivatives up to `order` (at most 2) at `t`, by the triangular scheme of
     /// Piegl and Tiller, *The NURBS Book*, algorithm A2.3. Outside the domain the end polynomials are continued.
     pub fn basis(&self, t: f64, order: usize) -> Basis {
-        let p = self.degree;
-        let span = self.span(t);
-        let k = &self.values;
+        let (p, span) = (self.degree, self.span(t));
         let mut out = Basis { first: span - p, values: [[0.0; MAX_DEGREE + 1]; 3] };
-        // Values of degree p - 2, p - 1 and p are kept: derivatives are differences of the lower ones.
-        let mut n = [0.0; MAX_DEGREE + 1];
-        let mut lower = [[0.0; MAX_DEGREE + 1]; 2];
-        n[0] = 1.0;
-        for j in 1..=p {
-            if order >= 2 && j + 1 == p {
-                lower[1] = n;
-            }
-            if order >= 1 && j == p {
-                lower[0] = n;
-            }
-            let mut saved = 0.0;
-            for r in 0..j {
-                let right = k[span + r + 1] - t;
-                let left = t - k[span + 1 + r - j];
-                let term = n[r] / (right + left);
-                n[r] = saved + right * term;
-                saved = left * term;
-            }
-            n[j] = saved;
-        }
-        out.values[0] = n;
-        if order >= 1 {
-            difference(&lower[0], k, span, p, &mut out.values[1]);
-        }
-        if order >= 2 && p >= 2 {
-            let mut first = [0.0; MAX_DEGREE + 1];
-            difference(&lower[1], k, span, p - 1, &mut first);
-            difference(&first, k, span, p, &mut out.values[2]);
+        // The usual degrees have loops of known length: twice as fast.
+        match p {
+            1 => copy_basis(&self.basis_on::<2>(span, p, t), order, &mut out),
+            2 => copy_basis(&self.basis_on::<3>(span, p, t), order, &mut out),
+            3 => copy_basis(&self.basis_on::<4>(span, p, t), order, &mut out),
+            5 => copy_basis(&self.basis_on::<6>(span, p, t), order, &mut out),
+            _ => copy_basis(&self.basis_on::<{ MAX_DEGREE + 1 }>(span, p, t), order, &mut out),
         }
         out
     }
+
+    /// The first control point concerned and the derivatives of `order` (any, zero above the degree) of the basis
+    /// functions at `t`, by differences of those of lower degree as in [`Knots::basis`].
+    pub(crate) fn derivative_row(&self, t: f64, order: usize) -> (usize, [f64; MAX_DEGREE + 1]) {
+        let (p, span) = (self.degree, self.span(t));
+        if order > p {
+            return (span - p, [0.0; MAX_DEGREE + 1]);
+        }
+        let k = &self.values;
+        let mut n = [0.0; MAX_DEGREE + 1];
+        n[0] = 1.0;
+        for j in 1..=p {
+            let mut saved = 0.0;
+            let derive = j > p - order;
+            for r in 0..j {
+                let (low, high) = (k[span + 1 + r - j], k[span + 1 + r]);
+                let term = n[r] / (high - low);
+                if derive {
+                    n[r] = saved - j as f64 * term;
+                    saved = j as f64 * term;
+                } else {
+                    n[r] = saved + (high - t) * term;
+                    saved = (t - low) * term;
+                }
+            }
+            n[j] = saved;
+        }
+        (span - p, n)
+    }
+
+    /// Clamped knots for `count` control points that give every span its share of increasing `parameters` (*The
+    /// NURBS Book*, equations 9.68 and 9.69): least-squares fits on them are well posed.
+    ///
+    /// # Errors
+    /// [`NurbsError::PointCount`] unless `degree < count <= parameters.len()`; as [`Knots::new`].
+    pub fn for_fit(degree: usize, parameters: &[f64], count: usize) -> Result<Self, NurbsError> {
+        let n = parameters.len();
+        if count <= degree || count > n {
+            return Err(NurbsError::PointCount { count, expected: n.max(degree + 1) });
+        }
+        let spans = count - degree;
+        let mut breaks = vec![parameters[0]];
+        for j in 1..spans {
+            let at = j as f64 * n as f64 / spans as f64;
+            let (i, alpha) = (at.floor() as usize, at.fract());
+            breaks.push((1.0 - alpha) * parameters[i - 1] + alpha * parameters[i.min(n - 1)]);
+        }
+        breaks.push(parameters[n - 1]);
+        Self::clamped(degree, &breaks)
+    }
+
+    /// Basis functions with first and second derivatives on the span with index `span`; `degree < N`, and where
+    /// it is known to be `N - 1` the compiler unrolls.
+    #[inline(always)]
+    pub(crate) fn basis_on<const N: usize>(&self, span: usize, degree: usize, t: f64) -> [[f64; N]; 3] {
+        let p = if N <= MAX_DEGREE { N - 1 } else { degree };
+        // The span is from `k[p]` to `k[p + 1]`.
+        let k = &self.values[span - p..span + p + 1];
+        let mut n = [0.0; N];
+        // Functions of degree p - 1 and p - 2, and the inverse widths of the supports of the degrees they belong
+        // to: derivatives are differences of them.
+        let (mut lower, mut lowest) = ([0.0; N], [0.0; N]);
+        let (mut inverse, mut inverse_lower) = ([0.0; N], [0.0; N]);
+        n[0] = 1.0;
+        for j in 1..=p {
+            lowest = lower;
+            lower = n;
+            inverse_lower = inverse;
+            let mut saved = 0.0;
+            for r in 0..j {
+                let (low, high) = (k[p + 1 + r - j], k[p + 1 + r]);
+                inverse[r] = 1.0 / (high - low);
+                let term = n[r] * inverse[r];
+                n[r] = saved + (high - t) * term;
+                saved = (t - low) * term;
+            }
+            n[j] = saved;
+        }
+        let first = difference(&lower, &inverse, p);
+        let second = if p >= 2 {
+            difference(&difference(&lowest, &inverse_lower, p - 1), &inverse, p)
+        } else {
+            [0.0; N]
+        };
+        [n, first, second]
+    }
 }
 
-/// Raises `lower` (functions of degree `p - 1`, or derivatives of them) to the derivative at degree `p`.
-fn difference(
-    lower: &[f64; MAX_DEGREE + 1],
-    k: &[f64],
-    span: usize,
-    p: usize,
-    out: &mut [f64; MAX_DEGREE + 1],
-) {
-    let scale = p as f64;
-    for r in 0..=p {
-        let mut d = 0.0;
-        if r > 0 {
-            d += lower[r - 1] / (k[span + r] - k[span + r - p]);
-        }
-        if r < p {
-            d -= lower[r] / (k[span + r + 1] - k[span + r + 1 - p]);
-        }
-        out[r] = scale * d;
+fn copy_basis<const N: usize>(values: &[[f64; N]; 3], order: usize, out: &mut Basis) {
+    for (to, from) in out.values.iter_mut().zip(values).take(order + 1) {
+        to[..N].copy_from_slice(from);
     }
+}
+
+/// Raises `lower` (functions of degree `p - 1`, or derivatives of them) to the derivative at degree `p`, given the
+/// inverse widths of their supports.
+#[inline(always)]
+fn difference<const N: usize>(lower: &[f64; N], inverse: &[f64; N], p: usize) -> [f64; N] {
+    let mut out = [0.0; N];
+    let mut saved = 0.0;
+    for r in 0..p {
+        let slope = p as f64 * lower[r] * inverse[r];
+        out[r] = saved - slope;
+        saved = slope;
+    }
+    out[p] = saved;
+    out
 }
 
 #[cfg(test)]

@@ -31,6 +31,7 @@ pub trait VectorSpace:
     fn with_component(self, i: usize, value: f64) -> Self;
 
     /// Euclidean inner product.
+    #[inline]
     fn inner(&self, other: &Self) -> f64 {
         (0..Self::DIMENSION).map(|i| self.component(i) * other.component(i)).sum()
     }
@@ -70,6 +71,7 @@ impl VectorSpace for DVec2 {
         self[i] = value;
         self
     }
+    #[inline]
     fn inner(&self, other: &Self) -> f64 {
         self.dot(*other)
     }
@@ -84,6 +86,7 @@ impl VectorSpace for DVec3 {
         self[i] = value;
         self
     }
+    #[inline]
     fn inner(&self, other: &Self) -> f64 {
         self.dot(*other)
     }

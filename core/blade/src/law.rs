@@ -1,0 +1,193 @@
+//! Laws: values along the span.
+
+use crate::fault::{Fault, Pointer};
+use coolinggen_nurbs::{Curve, Knots, ParametricCurve};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A value along the span: a number, or control points `[[v, value], ...]` of a clamped B-spline of degree 3 (less
+/// with fewer than four points) over the span fraction v. The abscissae must increase; the law holds its end values
+/// beyond them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+#[schemars(extend("law" = true))]
+pub enum LawSpec {
+    /// The same value everywhere.
+    Constant(f64),
+    /// Control points `[v, value]` with increasing v.
+    Points(Vec<[f64; 2]>),
+}
+
+impl From<f64> for LawSpec {
+    fn from(value: f64) -> Self {
+        Self::Constant(value)
+    }
+}
+
+/// A law ready to be evaluated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Law {
+    form: Form,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Form {
+    Constant(f64),
+    /// Abscissa and value as B-splines over one parameter in [0, 1].
+    Spline(Curve<glam::DVec2>),
+}
+
+/// Most control points a law may have.
+const MOST_POINTS: usize = 1000;
+
+impl LawSpec {
+    /// Checks the law and makes it ready.
+    ///
+    /// # Errors
+    /// Every fault of the law, with pointers below `pointer`.
+    pub fn law(&self, pointer: &Pointer) -> Result<Law, Vec<Fault>> {
+        let points = match self {
+            Self::Constant(value) if value.is_finite() => {
+                return Ok(Law { form: Form::Constant(*value) });
+            }
+            Self::Constant(_) => {
+                return Err(vec![Fault::new(pointer.clone(), "not_finite", "the value is not finite")]);
+            }
+            Self::Points(points) => points,
+        };
+        let mut faults = Vec::new();
+        if points.is_empty() || points.len() > MOST_POINTS {
+            let message = format!("a law has 1 to {MOST_POINTS} control points, here are {}", points.len());
+            faults.push(
+                Fault::new(pointer.clone(), "point_count", message)
+                    .value(points.len())
+                    .min(1.0)
+                    .max(MOST_POINTS as f64),
+            );
+            return Err(faults);
+        }
+        for (i, p) in points.iter().enumerate() {
+            if !(p[0].is_finite() && p[1].is_finite()) {
+                faults.push(Fault::new(pointer.at(i), "not_finite", "the control point is not finite"));
+            } else if i > 0 && !(p[0] > points[i - 1][0]) {
+                let message = format!("abscissa {} does not exceed the one before, {}", p[0], points[i - 1][0]);
+                faults.push(
+                    Fault::new(pointer.at(i).at(0), "not_increasing", message)
+                        .value(p[0])
+                        .min(points[i - 1][0])
+                        .hint("control points [v, value] come in the order of increasing v"),
+                );
+            }
+        }
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        if let [[_, value]] = points[..] {
+            return Ok(Law { form: Form::Constant(value) });
+        }
+        let controls: Vec<_> = points.iter().map(|&p| glam::DVec2::from_array(p)).collect();
+        let curve = Knots::uniform(3.min(points.len() - 1), points.len())
+            .and_then(|knots| Curve::new(knots, controls))
+            .map_err(|e| vec![Fault::new(pointer.clone(), "bad_law", e.to_string())])?;
+        Ok(Law { form: Form::Spline(curve) })
+    }
+}
+
+impl Law {
+    /// The law that has `value` everywhere.
+    pub fn constant(value: f64) -> Self {
+        Self { form: Form::Constant(value) }
+    }
+
+    /// Value at span fraction `v`; the end values beyond the ends. Exact to rounding.
+    pub fn at(&self, v: f64) -> f64 {
+        self.with_slope(v).0
+    }
+
+    /// Value and its derivative in v at `v`.
+    pub fn with_slope(&self, v: f64) -> (f64, f64) {
+        let curve = match &self.form {
+            Form::Constant(value) => return (*value, 0.0),
+            Form::Spline(curve) => curve,
+        };
+        let (first, last) = (curve.points()[0], curve.points()[curve.points().len() - 1]);
+        if v <= first.x {
+            return (first.y, 0.0);
+        }
+        if v >= last.x {
+            return (last.y, 0.0);
+        }
+        // The abscissa increases with the parameter (increasing control values): Newton between bisection bounds.
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut t = (v - first.x) / (last.x - first.x);
+        for _ in 0..100 {
+            let [p, d, _] = curve.derivatives(t);
+            let miss = p.x - v;
+            if miss > 0.0 {
+                high = t;
+            } else {
+                low = t;
+            }
+            let newton = t - miss / d.x;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if miss == 0.0 || (next - t).abs() <= 2.0 * f64::EPSILON {
+                break;
+            }
+            t = next;
+        }
+        let [p, d, _] = curve.derivatives(t);
+        (p.y, d.y / d.x)
+    }
+
+    /// Bounds of the values: least and greatest control value (the convex hull), so the law stays within them.
+    pub fn bounds(&self) -> (f64, f64) {
+        match &self.form {
+            Form::Constant(value) => (*value, *value),
+            Form::Spline(curve) => {
+                curve.points().iter().fold((f64::INFINITY, f64::NEG_INFINITY), |b, p| (b.0.min(p.y), b.1.max(p.y)))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn law(points: &[[f64; 2]]) -> Law {
+        LawSpec::Points(points.to_vec()).law(&Pointer::root()).unwrap()
+    }
+
+    #[test]
+    fn two_points_are_a_straight_law_and_ends_hold() {
+        let l = law(&[[0.0, 1.0], [1.0, 3.0]]);
+        assert!((l.at(0.25) - 1.5).abs() < 1e-15);
+        assert_eq!((l.at(-1.0), l.at(2.0)), (1.0, 3.0));
+        assert_eq!(law(&[[0.3, 7.0]]).at(0.9), 7.0);
+    }
+
+    #[test]
+    fn refuses_every_bad_abscissa_at_once() {
+        let spec = LawSpec::Points(vec![[0.0, 1.0], [0.0, 2.0], [-1.0, f64::NAN]]);
+        let faults = spec.law(&Pointer::root().at("thickness")).unwrap_err();
+        assert_eq!(faults.len(), 2);
+        assert_eq!(faults[0].pointer, "/thickness/1/0");
+        assert!(LawSpec::Points(Vec::new()).law(&Pointer::root()).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn stays_in_the_hull_and_reproduces_lines(gaps in proptest::collection::vec(0.01f64..1.0, 1..9), v in 0.0f64..1.0) {
+            let mut points = vec![[0.0, 5.0]];
+            for g in gaps {
+                let x = points[points.len() - 1][0] + g;
+                points.push([x, 5.0 - 2.0 * x]);
+            }
+            let l = law(&points);
+            let x = v * points[points.len() - 1][0];
+            prop_assert!((l.at(x) - (5.0 - 2.0 * x)).abs() < 1e-12);
+            prop_assert!((l.with_slope(x).1 + 2.0).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Chambers: rings of eight segments lofted over the span (DESIGN 5.3).
+
+use super::cap::Ring;
+use super::error::BuildError;
+use super::style;
+use crate::section::{ChamberRing, Outline, SEGMENTS};
+use coolinggen_blade::StreamSurface;
+use coolinggen_brep::{Coedge, EdgeId, Face, FaceId, Loop, Model, SurfaceGeometry, VertexId};
+use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve, Surface};
+use glam::{DVec2, DVec3};
+
+/// A chamber's ring on one stream surface.
+#[derive(Clone, Debug)]
+pub(super) struct RingSection<'a> {
+    pub(super) stream: &'a StreamSurface,
+    pub(super) outline: &'a Outline,
+    pub(super) ring: ChamberRing,
+}
+
+impl RingSection<'_> {
+    /// Point of segment `k` at `t` in space, with its derivative.
+    fn evaluate(&self, k: usize, t: f64) -> (DVec3, DVec3) {
+        let (q, dq) = self.ring.segments[k].evaluate(self.outline, t);
+        let (point, dm, dt) = self.stream.to_space_derivatives(q);
+        (point, dm * dq.x + dt * dq.y)
+    }
+}
+
+/// How far a section curve may lie from the exact one and from its stream surface between nodes, mm.
+const SHAPE_TOLERANCE: f64 = 2e-7;
+const EDGE_TOLERANCE: f64 = 1e-8;
+const MOST_SPANS: usize = 400;
+
+/// The faces of a chamber and its end rings.
+#[derive(Clone, Debug)]
+pub(super) struct ChamberFaces {
+    pub(super) faces: Vec<FaceId>,
+    pub(super) rings: [Ring; 2],
+}
+
+/// Names of the eight faces, from those of the front and the back closure.
+pub(super) fn segment_names(chamber: &str, front: &str, back: &str) -> [String; SEGMENTS] {
+    let path = |part: &str| format!("chamber/{chamber}/{part}");
+    let closure = |end: &str, first: &str, last: &str| {
+        let (middle, side) = match end.strip_prefix("wall/") {
+            Some(_) => (end.to_owned(), "fillet_"),
+            None => (end.to_owned(), ""),
+        };
+        [path(&format!("{end}/{side}{first}")), path(&middle), path(&format!("{end}/{side}{last}"))]
+    };
+    let [b0, b1, b2] = closure(back, "suction_side", "pressure_side");
+    let [f0, f1, f2] = closure(front, "pressure_side", "suction_side");
+    [path("suction_side"), b0, b1, b2, path("pressure_side"), f0, f1, f2]
+}
+
+/// Lofts the rings and adds the faces to the model; their natural normals point as the blade's do.
+pub(super) fn add_chamber(
+    model: &mut Model,
+    chamber: &str,
+    names: [String; SEGMENTS],
+    sections: &[RingSection<'_>],
+) -> Result<ChamberFaces, BuildError> {
+    let vs: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
+    let across = Interpolator::new(3, &vs)?;
+    // Corners once a section: both neighbours take the same point, bit for bit.
+    let corners: Vec<[DVec3; SEGMENTS]> =
+        sections.iter().map(|s| std::array::from_fn(|k| s.evaluate(k, 0.0).0)).collect();
+    let mut surfaces: Vec<Surface<DVec3>> = Vec::with_capacity(SEGMENTS);
+    for k in 0..SEGMENTS {
+        let along = section_interpolator(sections, k)?;
+        let curves = sections.iter().zip(&corners).map(|(section, corner)| {
+            section_curve(&along, section, k, Some((corner[k], corner[(k + 1) % SEGMENTS])))
+        });
+        surfaces.push(across.loft(&curves.collect::<Result<Vec<_>, _>>()?)?);
+    }
+    let last = vs.len() - 1;
+    let vertices: Vec<[VertexId; 2]> =
+        surfaces.iter().map(|s| [0, last].map(|j| model.add_vertex(s.points()[j]))).collect();
+    let mut rings: [Ring; 2] = [Ring::default(), Ring::default()];
+    for k in 0..SEGMENTS {
+        for (side, j) in [(0, 0), (1, last)] {
+            let (start, end) = (vertices[k][side], vertices[(k + 1) % SEGMENTS][side]);
+            let column = column(&surfaces[k], j)?;
+            rings[side].edges.push((model.add_edge(start, end, column), true));
+        }
+    }
+    let uprights: Vec<EdgeId> = (0..SEGMENTS)
+        .map(|k| {
+            let row = surfaces[k].points()[..=last].to_vec();
+            let curve = Curve::new(across.knots().clone(), row)?;
+            Ok(model.add_edge(vertices[k][0], vertices[k][1], curve))
+        })
+        .collect::<Result<_, BuildError>>()?;
+    let style = style::chamber(chamber);
+    let (v0, v1) = (vs[0], vs[last]);
+    let mut faces = Vec::with_capacity(SEGMENTS);
+    for (k, (surface, name)) in surfaces.into_iter().zip(names).enumerate() {
+        let line = |a: (f64, f64), b: (f64, f64)| Curve::segment(DVec2::new(a.0, a.1), DVec2::new(b.0, b.1));
+        let upright = |u: f64| line((u, v0), (u, v1)).reparameterized(v0, v1);
+        let coedges = vec![
+            Coedge { edge: rings[0].edges[k].0, forward: true, pcurve: line((0.0, v0), (1.0, v0)) },
+            Coedge { edge: uprights[(k + 1) % SEGMENTS], forward: true, pcurve: upright(1.0) },
+            Coedge { edge: rings[1].edges[k].0, forward: false, pcurve: line((0.0, v1), (1.0, v1)) },
+            Coedge { edge: uprights[k], forward: false, pcurve: upright(0.0) },
+        ];
+        let surface = SurfaceGeometry::BSpline(surface);
+        faces.push(model.add_face(Face {
+            name,
+            surface,
+            loops: vec![Loop { coedges }],
+            style: style.clone(),
+        }));
+    }
+    Ok(ChamberFaces { faces, rings })
+}
+
+/// The curve of the control points in column `j`: the border of a clamped surface.
+fn column(surface: &Surface<DVec3>, j: usize) -> Result<Curve<DVec3>, BuildError> {
+    let (_, count) = surface.counts();
+    let points = surface.points().iter().skip(j).step_by(count).copied().collect();
+    Ok(Curve::new(surface.knots_u().clone(), points)?)
+}
+
+/// The cubic through points of segment `k`, with its exact end slopes.
+fn section_curve(
+    along: &Nodes,
+    section: &RingSection<'_>,
+    k: usize,
+    ends: Option<(DVec3, DVec3)>,
+) -> Result<Curve<DVec3>, BuildError> {
+    let mut points: Vec<DVec3> = along.parameters.iter().map(|&t| section.evaluate(k, t).0).collect();
+    if let Some((start, end)) = ends {
+        let last = points.len() - 1;
+        (points[0], points[last]) = (start, end);
+    }
+    let (start, end) = (section.evaluate(k, 0.0).1, section.evaluate(k, 1.0).1);
+    Ok(along.interpolator.curve_with_slopes(&points, start, end)?)
+}
+
+/// Equal steps in [0, 1] and the cubic interpolation over them.
+struct Nodes {
+    parameters: Vec<f64>,
+    interpolator: Interpolator,
+}
+
+impl Nodes {
+    fn new(spans: usize) -> Result<Self, BuildError> {
+        let parameters: Vec<f64> = (0..=spans).map(|i| i as f64 / spans as f64).collect();
+        let interpolator = Interpolator::with_slopes(&parameters)?;
+        Ok(Self { parameters, interpolator })
+    }
+}
+
+/// As few equal spans as keep segment `k` of the first, middle and last section within the tolerances: the error
+/// falls with the fourth power of the step, so two trials tell.
+fn section_interpolator(sections: &[RingSection<'_>], k: usize) -> Result<Nodes, BuildError> {
+    let judged = [0, sections.len() / 2, sections.len() - 1];
+    let mut spans = 6;
+    loop {
+        let nodes = Nodes::new(spans)?;
+        let mut ratio = 0.0f64;
+        for i in judged {
+            let curve = section_curve(&nodes, &sections[i], k, None)?;
+            for pair in nodes.parameters.windows(2) {
+                let t = 0.5 * (pair[0] + pair[1]);
+                let (point, exact) = (curve.point(t), sections[i].evaluate(k, t).0);
+                let (level, gradient) = sections[i].stream.level(point);
+                let off = level.abs() / gradient.length();
+                ratio = ratio.max(point.distance(exact) / SHAPE_TOLERANCE).max(off / EDGE_TOLERANCE);
+            }
+        }
+        if ratio <= 1.0 || spans >= MOST_SPANS {
+            return Ok(nodes);
+        }
+        spans = ((spans as f64 * 1.05 * ratio.powf(0.25)).ceil() as usize).clamp(spans + 1, MOST_SPANS);
+    }
+}

@@ -1,0 +1,17 @@
+//! From plan to B-rep: sections, lofts, caps, solids.
+
+mod assemble;
+mod bitangent;
+mod cap;
+mod chambers;
+mod error;
+mod passages;
+mod radial_holes;
+mod sections;
+mod shell;
+mod style;
+mod tube;
+
+pub use assemble::{CooledBlade, build};
+pub use error::BuildError;
+pub use radial_holes::RadialHoleGeometry;

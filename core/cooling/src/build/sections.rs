@@ -1,0 +1,173 @@
+//! The sections of a blade: profiles on a set of stream surfaces, with their camber and their walls.
+
+use super::error::BuildError;
+use crate::plan::WallPlan;
+use crate::section::{Camber, Outline};
+use coolinggen_blade::{Blade, Region, StreamSpace, StreamSurface};
+use coolinggen_nurbs::{Curve, Interpolator, Knots, NurbsError, ParametricCurve, ParametricSurface};
+use glam::{DVec2, DVec3};
+use std::ops::RangeInclusive;
+
+/// The outer profile on one stream surface, open at the trailing edge.
+#[derive(Clone, Debug)]
+pub(super) struct Section {
+    pub(super) stream: StreamSurface,
+    pub(super) outline: Outline,
+    /// The blade's v-parameter at each node.
+    pub(super) blade_v: Vec<f64>,
+    pub(super) camber: Camber,
+}
+
+/// Parameters that all sections share.
+#[derive(Clone, Debug)]
+pub(super) struct Grid {
+    /// Nodes in u, increasing; negative on the pressure side.
+    pub(super) nodes: Vec<f64>,
+    /// Cubic interpolation of each region: pressure side, leading edge, suction side. The blade's curvature may
+    /// jump between regions, so that no spline may run smoothly over their joints.
+    pieces: [Piece; 3],
+    /// Ends of the leading edge: pressure side, suction side.
+    pub(super) leading_edge: (f64, f64),
+    /// Middle of the leading edge.
+    pub(super) nose: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Piece {
+    /// Range of the nodes, joints included.
+    nodes: RangeInclusive<usize>,
+    interpolator: Interpolator,
+}
+
+impl Grid {
+    /// Nodes at every knot of the blade and halfway between, all round but for the trailing edge.
+    pub(super) fn new(blade: &Blade) -> Result<Self, BuildError> {
+        let missing = || BuildError::NoCrossing { face: "blade".into(), v: 0.0 };
+        let leading = blade.range(Region::LeadingEdge).ok_or_else(missing)?;
+        let suction = blade.range(Region::SuctionSide).ok_or_else(missing)?;
+        let pressure = blade.range(Region::PressureSide).ok_or_else(missing)?;
+        let knots = blade.surface.breaks_u();
+        let mut nodes = vec![pressure[0] - 1.0];
+        let mut piece = |start: f64, end: f64, shift: f64| -> Result<Piece, BuildError> {
+            let first = nodes.len() - 1;
+            let inner = knots.iter().map(|k| k + shift).filter(|k| *k > start + 1e-9 && *k < end - 1e-9);
+            for k in inner.chain([end]) {
+                nodes.extend([0.5 * (nodes[nodes.len() - 1] + k), k]);
+            }
+            let range = first..=nodes.len() - 1;
+            Ok(Piece { interpolator: Interpolator::new(3, &nodes[range.clone()])?, nodes: range })
+        };
+        // The leading edge begins at u = 0, where the pressure side ends.
+        let pieces = [
+            piece(pressure[0] - 1.0, leading[0], -1.0)?,
+            piece(leading[0], leading[1], 0.0)?,
+            piece(suction[0], suction[1], 0.0)?,
+        ];
+        let nose = 0.5 * (leading[0] + leading[1]);
+        Ok(Self { nodes, pieces, leading_edge: (leading[0], leading[1]), nose })
+    }
+
+    /// Ranges of the nodes of pressure side, leading edge and suction side; joints belong to both neighbours.
+    pub(super) fn piece_nodes(&self) -> impl Iterator<Item = RangeInclusive<usize>> + '_ {
+        self.pieces.iter().map(|p| p.nodes.clone())
+    }
+
+    /// The curve through points at the nodes: a cubic a region, continuous where they join.
+    pub(super) fn curve(&self, points: &[DVec2]) -> Result<Curve<DVec2>, NurbsError> {
+        let mut knots: Vec<f64> = Vec::new();
+        let mut controls: Vec<DVec2> = Vec::new();
+        for piece in &self.pieces {
+            let curve = piece.interpolator.curve(&points[piece.nodes.clone()])?;
+            let values = curve.knots().values();
+            if controls.is_empty() {
+                knots.extend(values);
+                controls.extend(curve.points());
+            } else {
+                // Three knots at the joint hold the pieces together in their common point.
+                knots.pop();
+                knots.extend(&values[4..]);
+                controls.extend(&curve.points()[1..]);
+            }
+        }
+        Curve::new(Knots::new(3, knots)?, controls)
+    }
+}
+
+impl Section {
+    /// The section of `blade` on the stream surface at span fraction `v`.
+    pub(super) fn new(blade: &Blade, space: &StreamSpace, grid: &Grid, v: f64) -> Result<Self, BuildError> {
+        let stream = space.surface(v)?;
+        let crossings = blade.profile(&stream, &grid.nodes)?;
+        let (blade_v, points): (Vec<f64>, Vec<DVec2>) = crossings.into_iter().unzip();
+        let curve = grid.curve(&points)?;
+        let turn: f64 = points.windows(2).map(|p| p[0].perp_dot(p[1])).sum::<f64>()
+            + points[points.len() - 1].perp_dot(points[0]);
+        let outline = Outline::new(curve, turn.signum());
+        let length: f64 = points.windows(2).map(|p| p[0].distance(p[1])).sum();
+        let camber = Camber::of(&outline, grid.nose, grid.leading_edge, (0.0, 0.0), length / 200.0)
+            .map_err(|refusal| BuildError::refused("/blade", v, &refusal))?;
+        Ok(Self { stream, outline, blade_v, camber })
+    }
+
+    /// Length ratio of space to chart at a point.
+    pub(super) fn scale(&self, q: DVec2) -> f64 {
+        self.stream.scale(q)
+    }
+}
+
+/// A wall in one section; lengths still as asked for, in space.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WallLine {
+    pub(super) center: DVec2,
+    /// Unit direction, towards the suction side.
+    pub(super) direction: DVec2,
+    /// Camber tangent, towards the trailing edge.
+    pub(super) downstream: DVec2,
+    /// Chart length of half the thickness.
+    pub(super) half_thickness: f64,
+}
+
+/// The lines of a wall in all sections, with the thickness corrected for the wall's inclination to the stream
+/// surfaces: a wall that leans by gamma is thinner than its section by cos gamma.
+pub(super) fn wall_lines(sections: &[Section], wall: &WallPlan) -> Result<Vec<WallLine>, BuildError> {
+    let mut lines = Vec::with_capacity(sections.len());
+    for section in sections {
+        let v = section.stream.v();
+        let circle = section.camber.at(wall.position.at(v));
+        // The suction side lies on this side of the camber line.
+        let suction = section.outline.frame(circle.suction);
+        let side = circle.tangent.perp_dot(suction.point - circle.center).signum();
+        let angle = wall.angle_deg.at(v).to_radians() * side;
+        let direction = DVec2::from_angle(angle).rotate(circle.tangent);
+        let half_thickness = 0.5 * wall.thickness.at(v) / section.scale(circle.center);
+        lines.push(WallLine { center: circle.center, direction, downstream: circle.tangent, half_thickness });
+    }
+    let vs: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
+    let centers: Vec<DVec3> = sections.iter().zip(&lines).map(|(s, l)| s.stream.to_space(l.center)).collect();
+    let path = Interpolator::new(3, &vs)?.curve(&centers)?;
+    for (section, line) in sections.iter().zip(&mut lines) {
+        let rise = path.derivatives(section.stream.v())[1];
+        let (_, dm, dt) = section.stream.to_space_derivatives(line.center);
+        let along = dm * line.direction.x + dt * line.direction.y;
+        let across = line.direction.perp();
+        let normal_in_section = (dm * across.x + dt * across.y).normalize();
+        let cosine = normal_in_section.dot(along.cross(rise).normalize()).abs();
+        line.half_thickness /= cosine;
+    }
+    Ok(lines)
+}
+
+/// Span fractions of the sections: both ends of every chamber, and between them steps of at most a tenth.
+pub(super) fn span_fractions(spans: &[[f64; 2]]) -> Vec<f64> {
+    let mut ends: Vec<f64> = spans.iter().flatten().copied().collect();
+    ends.sort_by(f64::total_cmp);
+    ends.dedup();
+    let mut fractions = Vec::new();
+    for pair in ends.windows(2) {
+        let gap = pair[1] - pair[0];
+        let parts = (gap / 0.1).ceil().max(1.0) as usize;
+        fractions.extend((0..parts).map(|i| pair[0] + gap * i as f64 / parts as f64));
+    }
+    fractions.extend(ends.last());
+    fractions
+}

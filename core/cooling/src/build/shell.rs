@@ -1,0 +1,158 @@
+//! The shell: the outer profile's offset, corrected until its thickness is right in space (DESIGN 5.3, steps 1, 2).
+
+use super::error::BuildError;
+use super::sections::{Grid, Section};
+use crate::plan::ShellPlan;
+use crate::section::{Camber, Outline, Refusal};
+use coolinggen_blade::{Blade, Fault};
+use coolinggen_nurbs::{Interpolator, ParametricCurve};
+use std::ops::RangeInclusive;
+
+/// Greatest relative error of the thickness where the shell governs.
+const TOLERANCE: f64 = 1e-5;
+/// Rounds of correction before giving up; three or four do on blades leaned by 30 degrees.
+const ROUNDS: usize = 6;
+
+/// An offset section: its outline and camber.
+#[derive(Clone, Debug)]
+pub(super) struct OffsetSection {
+    pub(super) outline: Outline,
+    pub(super) camber: Camber,
+}
+
+/// Smallest radii, mm in space, at which marching the offset's camber ends at (front, back).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EndRadii {
+    pub(super) front: f64,
+    pub(super) back: f64,
+}
+
+/// The inner outline of the shell on one section.
+pub(super) fn offset_section(
+    blade: &Blade,
+    grid: &Grid,
+    section: &Section,
+    shell: &ShellPlan,
+    ends: EndRadii,
+) -> Result<OffsetSection, BuildError> {
+    let v = section.stream.v();
+    let asked: Vec<f64> = grid.nodes.iter().map(|&u| asked_thickness(grid, shell, u, v)).collect();
+    let refused = |refusal: &Refusal| BuildError::refused("/cooling/shell", v, refusal);
+    let step = grid_step(section);
+    let mean_scale = section.scale(section.camber.at(0.5).center);
+    let radii = (ends.front / mean_scale, ends.back / mean_scale);
+    let camber_of = |outline: &Outline| {
+        Camber::of(outline, grid.nose, grid.leading_edge, radii, step).map_err(|refusal| refused(&refusal))
+    };
+
+    // Thickness in the chart, first as if the blade stood upright.
+    let frames: Vec<_> = grid.nodes.iter().map(|&u| section.outline.frame(u)).collect();
+    let mut distance: Vec<f64> = asked.iter().zip(&frames).map(|(d, f)| d / section.scale(f.point)).collect();
+    let offset = |distance: &[f64]| -> Result<Outline, BuildError> {
+        let points: Vec<_> = frames.iter().zip(distance).map(|(f, d)| f.point + f.normal * *d).collect();
+        Ok(Outline::new(grid.curve(&points)?, section.outline.inward()))
+    };
+    let mut outline = offset(&distance)?;
+    let rough = camber_of(&outline)?;
+
+    // Between its end circles the shell governs; beyond them other parts bound the chamber.
+    let governs = |u: f64| (rough.back().pressure..=rough.back().suction).contains(&u);
+    let mut parts = grid
+        .piece_nodes()
+        .map(|nodes| Part::new(grid, nodes, &governs))
+        .collect::<Result<Vec<_>, BuildError>>()?;
+    let mut worst = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        worst = 0.0;
+        let mut hint = None;
+        for part in &mut parts {
+            for (k, &i) in part.samples.iter().enumerate() {
+                let u = grid.nodes[i];
+                let inner = section.stream.to_space(outline.curve().point(u));
+                let foot = blade.closest(inner, hint.unwrap_or((u, section.blade_v[i])))?;
+                hint = Some((foot.u, foot.v));
+                let ratio = asked[i] / foot.distance;
+                worst = f64::max(worst, (ratio - 1.0).abs());
+                part.factors[k] *= ratio.clamp(0.8, 1.25);
+            }
+        }
+        if worst <= TOLERANCE {
+            break;
+        }
+        for part in &parts {
+            let factor = part.factor(grid)?;
+            for i in part.nodes.clone() {
+                distance[i] = asked[i] / section.scale(frames[i].point) * factor(grid.nodes[i]);
+            }
+        }
+        outline = offset(&distance)?;
+    }
+    if !(worst <= 10.0 * TOLERANCE) {
+        let message = format!("at span fraction {v:.4} the shell's thickness stays {:.2e} off", worst);
+        let fault = Fault::new("/cooling/shell", "geometry", message)
+            .hint("the shell is too thick for the curvature of the blade there");
+        return Err(BuildError::Refused(vec![fault]));
+    }
+    let camber = camber_of(&outline)?;
+    Ok(OffsetSection { outline, camber })
+}
+
+/// Greatest step of camber marching in a section.
+fn grid_step(section: &Section) -> f64 {
+    section.camber.length() / 100.0
+}
+
+/// Thickness asked for at u: by side, blended with two continuous derivatives round the leading edge.
+pub(super) fn asked_thickness(grid: &Grid, shell: &ShellPlan, u: f64, v: f64) -> f64 {
+    let (start, end) = grid.leading_edge;
+    let x = ((u - start) / (end - start)).clamp(0.0, 1.0);
+    let blend = x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);
+    let (pressure, suction) = (shell.pressure_side.at(v), shell.suction_side.at(v));
+    pressure + (suction - pressure) * blend
+}
+
+/// The correction on one region of the outline: a factor for the thickness, which is smooth inside the region only.
+struct Part {
+    /// Range of the nodes, joints included.
+    nodes: RangeInclusive<usize>,
+    /// Nodes at which thickness is measured.
+    samples: Vec<usize>,
+    /// Factors at the samples.
+    factors: Vec<f64>,
+    /// Interpolation of the factors over the samples; none where there are too few.
+    interpolator: Option<Interpolator>,
+}
+
+impl Part {
+    /// At most about fifty samples where the shell governs, as dense as the nodes are.
+    fn new(
+        grid: &Grid,
+        nodes: RangeInclusive<usize>,
+        governs: impl Fn(f64) -> bool,
+    ) -> Result<Self, BuildError> {
+        let within: Vec<usize> = nodes.clone().filter(|&i| governs(grid.nodes[i])).collect();
+        let stride = (within.len() / 40).max(1);
+        let mut samples: Vec<usize> = within.iter().copied().step_by(stride).collect();
+        if let (Some(&last), Some(&end)) = (samples.last(), within.last())
+            && last != end
+        {
+            samples.push(end);
+        }
+        let parameters: Vec<f64> = samples.iter().map(|&i| grid.nodes[i]).collect();
+        let interpolator = if samples.len() >= 4 { Some(Interpolator::new(3, &parameters)?) } else { None };
+        Ok(Self { nodes, factors: vec![1.0; samples.len()], samples, interpolator })
+    }
+
+    /// The factor as a function of u, constant beyond the samples.
+    fn factor(&self, grid: &Grid) -> Result<impl Fn(f64) -> f64, BuildError> {
+        let mean = self.factors.iter().sum::<f64>() / self.factors.len().max(1) as f64;
+        let curve = self.interpolator.as_ref().map(|i| i.curve(&self.factors)).transpose()?;
+        let ends =
+            self.samples.first().zip(self.samples.last()).map(|(&a, &b)| (grid.nodes[a], grid.nodes[b]));
+        Ok(move |u: f64| match (&curve, ends) {
+            (Some(curve), Some((low, high))) => curve.point(u.clamp(low, high)),
+            _ if mean > 0.0 => mean,
+            _ => 1.0,
+        })
+    }
+}

@@ -1,0 +1,37 @@
+//! Layers and colours: which faces belong together and how they look.
+
+use coolinggen_brep::Style;
+
+fn style(layer: impl Into<String>, color: [f64; 3]) -> Style {
+    Style { layer: layer.into(), color }
+}
+
+/// The outer surface.
+pub(super) fn blade() -> Style {
+    style("blade", [0.62, 0.64, 0.67])
+}
+
+/// Hub and tip faces of the metal.
+pub(super) fn end() -> Style {
+    style("blade/ends", [0.48, 0.50, 0.54])
+}
+
+/// Faces between metal and the coolant of a chamber.
+pub(super) fn chamber(name: &str) -> Style {
+    style(format!("chamber/{name}"), [0.85, 0.45, 0.25])
+}
+
+/// Faces between metal and the coolant of a radial hole.
+pub(super) fn radial_hole() -> Style {
+    style("radial_hole", [0.90, 0.62, 0.20])
+}
+
+/// Where coolant enters.
+pub(super) fn inlet() -> Style {
+    style("coolant/inlet", [0.16, 0.45, 0.85])
+}
+
+/// Where coolant leaves.
+pub(super) fn outlet() -> Style {
+    style("coolant/outlet", [0.45, 0.70, 0.95])
+}

@@ -1,0 +1,109 @@
+//! The design: one JSON document, its types, and what may be said in it.
+//!
+//! The types here are the one definition of every parameter: the JSON Schema, the help, the add-ons' fields and the
+//! reference page are generated from them. Lengths are millimetres, angles degrees.
+
+mod chambers;
+mod radial_holes;
+mod schema;
+
+pub use chambers::{Chamber, Shell, Wall};
+pub use radial_holes::{HolePlacement, RadialHole};
+pub use schema::{design_schema, schema_faults};
+
+use coolinggen_blade::{BladeSource, Fault, SpaceSpec};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::path::Path;
+
+/// The format this version reads.
+pub const FORMAT: &str = "coolinggen/1";
+
+/// A blade and its cooling.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Design {
+    /// Version of the format: `coolinggen/1`.
+    #[schemars(extend("const" = "coolinggen/1"))]
+    pub format: String,
+    /// Name of the design; the names of the files written begin with it.
+    #[schemars(regex(pattern = r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$"))]
+    pub name: String,
+    /// A sentence about the design.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub description: Option<String>,
+    /// Where the blade stands: an annulus or a linear cascade.
+    pub space: SpaceSpec,
+    /// The blade's outer surface.
+    pub blade: BladeSource,
+    /// What is inside; a blade without it is exported solid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cooling: Option<Cooling>,
+}
+
+/// What is inside the blade.
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cooling {
+    /// Metal between the outer surface and the chambers. Needed when there are chambers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shell: Option<Shell>,
+    /// Walls between chambers, from the leading to the trailing edge.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 32))]
+    pub walls: Vec<Wall>,
+    /// Chambers from the leading to the trailing edge, one more than walls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 33))]
+    pub chambers: Vec<Chamber>,
+    /// Round passages straight from hub to tip.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub radial_holes: Vec<RadialHole>,
+}
+
+/// Greatest size of a design document, bytes.
+const LARGEST: usize = 64 << 20;
+
+impl Design {
+    /// Reads a design: its syntax, then the schema with every fault in it.
+    ///
+    /// # Errors
+    /// All faults found, each with its JSON pointer.
+    pub fn from_json(text: &str) -> Result<Self, Vec<Fault>> {
+        if text.len() > LARGEST {
+            let message = format!("the design has {} bytes", text.len());
+            return Err(vec![Fault::new("", "too_large", message).max(LARGEST as f64).unit("bytes")]);
+        }
+        let value: Value = serde_json::from_str(text).map_err(|e| {
+            let message = format!("not JSON: {e}");
+            vec![Fault::new("", "syntax", message).hint("numbers such as NaN and comments are not JSON")]
+        })?;
+        let faults = schema_faults(&value);
+        if !faults.is_empty() {
+            return Err(faults);
+        }
+        serde_json::from_value(value).map_err(|e| {
+            // The schema accepts what the types do not: a fault of ours, said rather than hidden.
+            vec![Fault::new("", "type", format!("the design does not fit its schema: {e}"))]
+        })
+    }
+
+    /// Reads a design from a file; paths in it are relative to the file's folder, see [`Design::folder_of`].
+    ///
+    /// # Errors
+    /// As [`Design::from_json`], or a single fault if the file cannot be read.
+    pub fn from_file(path: &Path) -> Result<Self, Vec<Fault>> {
+        let bytes = std::fs::read(path)
+            .map_err(|e| vec![Fault::new("", "file", format!("cannot read {}: {e}", path.display()))])?;
+        let text = String::from_utf8(bytes)
+            .map_err(|e| vec![Fault::new("", "syntax", format!("{} is not UTF-8: {e}", path.display()))])?;
+        Self::from_json(&text)
+    }
+
+    /// The folder that relative paths in the design of this file refer to.
+    pub fn folder_of(path: &Path) -> &Path {
+        path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or_else(|| Path::new("."))
+    }
+}

@@ -1,0 +1,364 @@
+//! The JSON Schema of a design, and a check of a document against it that finds every fault.
+//!
+//! serde stops at its first error; a user wants all of them, with the pointer, the value, the limit and the unit. The
+//! walker below knows the part of JSON Schema that the design types use, and nothing else.
+
+use super::Design;
+use coolinggen_blade::Fault;
+use serde_json::{Map, Value};
+use std::sync::OnceLock;
+
+/// JSON Schema (draft 2020-12) of a design.
+pub fn design_schema() -> &'static Value {
+    static SCHEMA: OnceLock<Value> = OnceLock::new();
+    SCHEMA.get_or_init(|| schemars::schema_for!(Design).to_value())
+}
+
+/// More faults than this are counted, not listed: a million bad points say no more than a hundred.
+const LISTED: usize = 100;
+
+/// All faults of `document` against the schema.
+pub fn schema_faults(document: &Value) -> Vec<Fault> {
+    let schema = design_schema();
+    let mut walk = Walk { root: schema, faults: Vec::new(), found: 0 };
+    walk.check(schema, document, &mut String::new(), &Limits::default());
+    if walk.found > LISTED {
+        let message = format!("{} more faults of this kind are not listed", walk.found - LISTED);
+        walk.faults.push(Fault::new("", "more", message));
+    }
+    walk.faults
+}
+
+struct Walk {
+    root: &'static Value,
+    faults: Vec<Fault>,
+    found: usize,
+}
+
+/// Limits and unit said beside a `$ref`, which hold for the numbers below it: a law's limits hold for its values.
+#[derive(Clone, Copy, Default)]
+struct Limits {
+    minimum: Option<f64>,
+    maximum: Option<f64>,
+    unit: Option<&'static str>,
+    /// Below a law's schema: in its control points `[v, value]` the limits are the values', not the abscissae's.
+    law: bool,
+}
+
+impl Limits {
+    fn narrowed(&self, schema: &'static Map<String, Value>) -> Self {
+        let number = |key: &str| schema.get(key).and_then(Value::as_f64);
+        Self {
+            minimum: number("minimum").or(self.minimum),
+            maximum: number("maximum").or(self.maximum),
+            unit: schema.get("unit").and_then(Value::as_str).or(self.unit),
+            law: self.law || schema.get("law") == Some(&Value::Bool(true)),
+        }
+    }
+}
+
+impl Walk {
+    fn report(&mut self, fault: Fault) {
+        self.found += 1;
+        if self.found <= LISTED {
+            self.faults.push(fault);
+        }
+    }
+
+    fn resolve(&self, reference: &str) -> &'static Value {
+        let pointer = reference.strip_prefix('#').unwrap_or(reference);
+        self.root.pointer(pointer).unwrap_or(&Value::Bool(true))
+    }
+
+    fn check(&mut self, schema: &'static Value, value: &Value, pointer: &mut String, limits: &Limits) {
+        let Some(schema) = schema.as_object() else { return };
+        let limits = limits.narrowed(schema);
+        if let Some(reference) = schema.get("$ref").and_then(Value::as_str) {
+            self.check(self.resolve(reference), value, pointer, &limits);
+            return;
+        }
+        if let Some(options) = schema.get("anyOf").or_else(|| schema.get("oneOf")).and_then(Value::as_array) {
+            self.check_options(options, value, pointer, &limits);
+            return;
+        }
+        if let Some(expected) = schema.get("const") {
+            if value != expected {
+                let message = format!("must be {expected}");
+                self.report(Fault::new(&*pointer, "constant", message).value(shown(value)));
+            }
+            return;
+        }
+        if let Some(allowed) = schema.get("enum").and_then(Value::as_array) {
+            if !allowed.contains(value) {
+                let list: Vec<String> = allowed.iter().map(Value::to_string).collect();
+                let message = format!("must be one of {}", list.join(", "));
+                self.report(Fault::new(&*pointer, "choice", message).value(shown(value)));
+            }
+            return;
+        }
+        if !self.check_type(schema, value, pointer) {
+            return;
+        }
+        match value {
+            Value::Object(members) => self.check_object(schema, members, pointer),
+            Value::Array(items) => self.check_array(schema, items, pointer, &limits),
+            Value::Number(_) => self.check_number(value, pointer, &limits),
+            Value::String(text) => self.check_string(schema, text, pointer),
+            Value::Null | Value::Bool(_) => {}
+        }
+    }
+
+    fn check_type(&mut self, schema: &Map<String, Value>, value: &Value, pointer: &str) -> bool {
+        let names: Vec<&str> = match schema.get("type") {
+            Some(Value::String(name)) => vec![name],
+            Some(Value::Array(names)) => names.iter().filter_map(Value::as_str).collect(),
+            _ => return true,
+        };
+        if names.iter().any(|name| is_of_type(value, name)) {
+            return true;
+        }
+        let message = format!("must be {}, not {}", names.join(" or "), type_name(value));
+        self.report(Fault::new(&*pointer, "type", message).value(shown(value)));
+        false
+    }
+
+    fn check_object(
+        &mut self,
+        schema: &'static Map<String, Value>,
+        members: &Map<String, Value>,
+        pointer: &mut String,
+    ) {
+        let empty = Map::new();
+        let properties = schema.get("properties").and_then(Value::as_object);
+        let known = |name: &str| properties.and_then(|p| p.get(name));
+        for name in
+            schema.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str)
+        {
+            if !members.contains_key(name) {
+                let message = format!("the field \"{name}\" is missing");
+                let at = format!("{pointer}/{}", escape(name));
+                self.report(Fault::new(&at, "missing", message));
+            }
+        }
+        let closed = schema.get("additionalProperties") == Some(&Value::Bool(false));
+        for (name, member) in members {
+            let length = pointer.len();
+            pointer.push('/');
+            pointer.push_str(&escape(name));
+            if let Some(schema) = known(name) {
+                // Limits do not reach into the fields of an object.
+                self.check(schema, member, pointer, &Limits::default());
+            } else if closed {
+                let names = properties.unwrap_or(&empty).keys().map(String::as_str);
+                let mut fault =
+                    Fault::new(&*pointer, "unknown", format!("there is no field \"{name}\" here"));
+                if let Some(near) = nearest(name, names) {
+                    fault = fault.hint(format!("did you mean \"{near}\"?"));
+                }
+                self.report(fault);
+            }
+            pointer.truncate(length);
+        }
+    }
+
+    fn check_array(
+        &mut self,
+        schema: &'static Map<String, Value>,
+        items: &[Value],
+        pointer: &mut String,
+        limits: &Limits,
+    ) {
+        let bound = |key: &str| schema.get(key).and_then(Value::as_u64);
+        let count = items.len() as u64;
+        if bound("minItems").is_some_and(|least| count < least)
+            || bound("maxItems").is_some_and(|most| count > most)
+        {
+            let mut fault =
+                Fault::new(&*pointer, "count", format!("has {count} entries")).value(count).unit("entries");
+            if let Some(least) = bound("minItems") {
+                fault = fault.min(least as f64);
+            }
+            if let Some(most) = bound("maxItems") {
+                fault = fault.max(most as f64);
+            }
+            self.report(fault);
+            if bound("maxItems").is_some_and(|most| count > most) {
+                return;
+            }
+        }
+        let prefix = schema.get("prefixItems").and_then(Value::as_array);
+        for (i, item) in items.iter().enumerate() {
+            let own = prefix.and_then(|p| p.get(i)).or_else(|| schema.get("items"));
+            if let Some(own) = own {
+                let length = pointer.len();
+                pointer.push_str(&format!("/{i}"));
+                let abscissa = limits.law && i == 0 && item.is_number();
+                let limits = if abscissa { &Limits::default() } else { limits };
+                self.check(own, item, pointer, limits);
+                pointer.truncate(length);
+            }
+        }
+    }
+
+    fn check_number(&mut self, value: &Value, pointer: &str, limits: &Limits) {
+        let Some(number) = value.as_f64() else { return };
+        let low = limits.minimum.is_some_and(|least| !(number >= least));
+        let high = limits.maximum.is_some_and(|most| !(number <= most));
+        if low || high || !number.is_finite() {
+            let side = if low { "too small" } else { "too large" };
+            let mut fault = Fault::new(&*pointer, "range", side).value(shown(value));
+            if let Some(least) = limits.minimum {
+                fault = fault.min(least);
+            }
+            if let Some(most) = limits.maximum {
+                fault = fault.max(most);
+            }
+            if let Some(unit) = limits.unit {
+                fault = fault.unit(unit);
+            }
+            self.report(fault);
+        }
+    }
+
+    fn check_string(&mut self, schema: &Map<String, Value>, text: &str, pointer: &str) {
+        let Some(pattern) = schema.get("pattern").and_then(Value::as_str) else { return };
+        if !name_matches(pattern, text) {
+            let message = format!("must match {pattern}");
+            self.report(
+                Fault::new(&*pointer, "pattern", message)
+                    .value(text)
+                    .hint("letters, digits, '_' and '-', beginning with a letter or digit"),
+            );
+        }
+    }
+
+    /// Alternatives: by their tag if they have one, else by JSON type.
+    fn check_options(
+        &mut self,
+        options: &'static [Value],
+        value: &Value,
+        pointer: &mut String,
+        limits: &Limits,
+    ) {
+        let options: Vec<&'static Value> = options.iter().map(|o| self.dereferenced(o)).collect();
+        if let Some(tag) = options.iter().find_map(|o| tag_of(o)) {
+            let Some(members) = value.as_object() else {
+                let message = format!("must be object, not {}", type_name(value));
+                self.report(Fault::new(&*pointer, "type", message).value(shown(value)));
+                return;
+            };
+            let given = members.get(tag.0);
+            let chosen = options.iter().find(|o| tag_of(o).is_some_and(|t| Some(t.1) == given));
+            if let Some(chosen) = chosen {
+                self.check(chosen, value, pointer, limits);
+                return;
+            }
+            let names: Vec<String> = options.iter().filter_map(|o| Some(tag_of(o)?.1.to_string())).collect();
+            let at = format!("{pointer}/{}", tag.0);
+            let fault = match given {
+                Some(given) => Fault::new(&at, "choice", format!("must be one of {}", names.join(", ")))
+                    .value(shown(given)),
+                None => Fault::new(&at, "missing", format!("the field \"{}\" is missing", tag.0))
+                    .hint(format!("one of {}", names.join(", "))),
+            };
+            self.report(fault);
+            return;
+        }
+        let fits = |o: &&&'static Value| match o.get("type") {
+            Some(Value::String(name)) => is_of_type(value, name),
+            Some(Value::Array(names)) => names.iter().filter_map(Value::as_str).any(|n| is_of_type(value, n)),
+            _ => o.get("const").is_none_or(|c| c == value),
+        };
+        if let Some(chosen) = options.iter().find(fits) {
+            self.check(chosen, value, pointer, limits);
+            return;
+        }
+        let names: Vec<&str> = options.iter().filter_map(|o| o.get("type")?.as_str()).collect();
+        let message = format!("must be {}, not {}", names.join(" or "), type_name(value));
+        self.report(Fault::new(&*pointer, "type", message).value(shown(value)));
+    }
+
+    fn dereferenced(&self, schema: &'static Value) -> &'static Value {
+        match schema.get("$ref").and_then(Value::as_str) {
+            Some(reference) => self.resolve(reference),
+            None => schema,
+        }
+    }
+}
+
+/// The field with a constant value by which an alternative is told, and that value.
+fn tag_of(schema: &Value) -> Option<(&str, &Value)> {
+    let properties = schema.get("properties")?.as_object()?;
+    properties.iter().find_map(|(name, p)| Some((name.as_str(), p.get("const")?)))
+}
+
+/// A value short enough to print; long ones are cut.
+fn shown(value: &Value) -> Value {
+    match value {
+        Value::Array(_) | Value::Object(_) => Value::from(type_name(value)),
+        Value::String(text) if text.len() > 80 => Value::from(text.chars().take(80).collect::<String>()),
+        _ => value.clone(),
+    }
+}
+
+fn is_of_type(value: &Value, name: &str) -> bool {
+    match name {
+        "integer" => value.is_u64() || value.is_i64(),
+        "number" => value.is_number(),
+        "string" => value.is_string(),
+        "boolean" => value.is_boolean(),
+        "array" => value.is_array(),
+        "object" => value.is_object(),
+        "null" => value.is_null(),
+        _ => false,
+    }
+}
+
+fn type_name(value: &Value) -> &'static str {
+    match value {
+        Value::Null => "null",
+        Value::Bool(_) => "boolean",
+        Value::Number(_) => "number",
+        Value::String(_) => "string",
+        Value::Array(_) => "array",
+        Value::Object(_) => "object",
+    }
+}
+
+/// A JSON pointer's reference token (RFC 6901).
+fn escape(name: &str) -> String {
+    name.replace('~', "~0").replace('/', "~1")
+}
+
+/// The patterns that the design types use all have the form `^[A-Za-z0-9][A-Za-z0-9EXTRA]{0,MOST}$`: names.
+fn name_matches(pattern: &str, text: &str) -> bool {
+    let inner = pattern.strip_prefix("^[A-Za-z0-9][A-Za-z0-9").and_then(|p| p.strip_suffix("}$"));
+    let Some((extra, most)) = inner.and_then(|p| p.split_once("]{0,")) else { return true };
+    let most: usize = most.parse().unwrap_or(usize::MAX);
+    let mut letters = text.bytes();
+    let first = letters.next().is_some_and(|c| c.is_ascii_alphanumeric());
+    first
+        && text.len() <= most + 1
+        && letters.all(|c| c.is_ascii_alphanumeric() || extra.as_bytes().contains(&c))
+}
+
+/// The known name nearest to a misspelt one, if it is near.
+fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    known.map(|k| (edit_distance(name, k), k)).filter(|(d, k)| *d <= 1 + k.len() / 4).min().map(|(_, k)| k)
+}
+
+/// Levenshtein's distance.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let a: Vec<char> = a.chars().take(64).collect();
+    let mut row: Vec<usize> = (0..=a.len()).collect();
+    for (j, c) in b.chars().take(64).enumerate() {
+        let mut diagonal = row[0];
+        row[0] = j + 1;
+        for i in 0..a.len() {
+            let substituted = diagonal + usize::from(a[i] != c);
+            diagonal = row[i + 1];
+            row[i + 1] = substituted.min(row[i] + 1).min(diagonal + 1);
+        }
+    }
+    row[a.len()]
+}

@@ -1,0 +1,58 @@
+//! The report as a page of text.
+
+use super::Report;
+use std::fmt::Write;
+
+/// A table of what matters first.
+pub(super) fn render(report: &Report) -> String {
+    let mut text = String::new();
+    // Writing to a String cannot fail.
+    let _ = write(report, &mut text);
+    text
+}
+
+fn write(report: &Report, out: &mut String) -> std::fmt::Result {
+    writeln!(out, "{}", report.name)?;
+    let state = if report.watertight { "watertight" } else { "NOT watertight" };
+    writeln!(out, "  {state}, edges within {:.1e} mm of their faces", report.max_edge_deviation_mm)?;
+    writeln!(
+        out,
+        "\n  {:<24} {:>14} {:>14} {:>7} {:>7}",
+        "solid", "volume mm3", "area mm2", "faces", "genus"
+    )?;
+    for (name, solid) in &report.solids {
+        let genus = report.genus.get(name).and_then(|g| g.found).map_or("?".into(), |g| g.to_string());
+        writeln!(
+            out,
+            "  {name:<24} {:>14.3} {:>14.3} {:>7} {genus:>7}",
+            solid.volume_mm3, solid.area_mm2, solid.faces
+        )?;
+    }
+    writeln!(out, "  {:<24} {:>14.3}", "blade without cooling", report.blank.volume_mm3)?;
+    if let Some(wall) = &report.wall_thickness_mm {
+        let [x, y, z] = wall.at_mm;
+        writeln!(out, "\n  thinnest wall {:.4} mm at ({x:.3}, {y:.3}, {z:.3}) on {}", wall.min, wall.face)?;
+    }
+    if !report.radial_holes.is_empty() {
+        writeln!(
+            out,
+            "\n  {:<12} {:>10} {:>10} {:>28} {:>9}",
+            "radial hole", "d hub mm", "d tip mm", "axis at hub mm", "wall mm"
+        )?;
+        for hole in &report.radial_holes {
+            let [x, y, z] = hole.hub_mm;
+            let at = format!("{x:.3}, {y:.3}, {z:.3}");
+            let [hub, tip] = hole.diameter_mm;
+            writeln!(out, "  {:<12} {hub:>10.4} {tip:>10.4} {at:>28} {:>9.4}", hole.name, hole.wall_mm)?;
+        }
+    }
+    let fit = &report.blade_fit;
+    if fit.points > 0 {
+        writeln!(
+            out,
+            "\n  the surface passes {} points within {:.2e} mm",
+            fit.points, fit.greatest_distance_mm
+        )?;
+    }
+    writeln!(out, "\n  {:.1} ms", report.timings_ms.total)
+}

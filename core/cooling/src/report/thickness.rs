@@ -1,0 +1,152 @@
+//! Wall thickness: the distance in space from the passages to the outer surface.
+
+use crate::build::{BuildError, CooledBlade};
+use coolinggen_blade::Blade;
+use coolinggen_brep::{Face, FaceId};
+use coolinggen_nurbs::{ParametricCurve, ParametricSurface};
+use glam::{DVec2, DVec3};
+use serde::Serialize;
+
+/// Thickness at one point of a passage.
+#[derive(Clone, Debug, Serialize)]
+pub struct ThinnestWall {
+    /// Thickness, mm; negative where the passage has left the blade.
+    pub min: f64,
+    /// Where, on the passage's side, mm.
+    pub at_mm: [f64; 3],
+    /// Name of the passage's face.
+    pub face: String,
+}
+
+/// The thinnest wall of every passage face, in the order of the faces: sampled on a grid, then refined on the
+/// thinnest face of all.
+pub(super) fn thinnest_walls(blade: &Blade, cooled: &CooledBlade) -> Result<Vec<ThinnestWall>, BuildError> {
+    let probe = Probe::new(blade);
+    let mut walls = Vec::new();
+    let mut least: Option<(usize, FaceId, DVec2)> = None;
+    for &id in &cooled.passage_faces {
+        let face = cooled.model.face(id);
+        let (q, thickness) = coarse(&probe, face)?;
+        if least.as_ref().is_none_or(|(k, ..)| thickness < at(&walls, *k)) {
+            least = Some((walls.len(), id, q));
+        }
+        walls.push(wall(face, q, thickness));
+    }
+    if let Some((k, id, q)) = least {
+        let face = cooled.model.face(id);
+        let (q, thickness) = refined(&probe, face, q)?;
+        walls[k] = wall(face, q, thickness);
+    }
+    Ok(walls)
+}
+
+fn at(walls: &[ThinnestWall], k: usize) -> f64 {
+    walls[k].min
+}
+
+fn wall(face: &Face, q: DVec2, min: f64) -> ThinnestWall {
+    ThinnestWall { min, at_mm: face.surface.point(q.x, q.y).to_array(), face: face.name.clone() }
+}
+
+/// Measures distances to the outer surface, starting each search at the nearest of a grid of its points.
+struct Probe<'a> {
+    blade: &'a Blade,
+    grid: Vec<(DVec3, (f64, f64))>,
+}
+
+impl<'a> Probe<'a> {
+    fn new(blade: &'a Blade) -> Self {
+        const AROUND: usize = 96;
+        const ALONG: usize = 9;
+        let mut grid = Vec::with_capacity(AROUND * ALONG);
+        for i in 0..AROUND {
+            for j in 0..ALONG {
+                let (u, w) = (i as f64 / AROUND as f64, j as f64 / (ALONG - 1) as f64);
+                grid.push((blade.surface.point(u, w), (u, w)));
+            }
+        }
+        Self { blade, grid }
+    }
+
+    /// Distance into the material, negative outside.
+    fn thickness(&self, p: DVec3) -> Result<f64, BuildError> {
+        let mut best = (f64::INFINITY, (0.0, 0.0));
+        for (q, hint) in &self.grid {
+            let d = q.distance_squared(p);
+            if d < best.0 {
+                best = (d, *hint);
+            }
+        }
+        let foot = self.blade.closest(p, best.1)?;
+        let (_, u, w) = self.blade.surface.first_derivatives(foot.u, foot.v);
+        let outward = u.cross(w) * if self.blade.outward { 1.0 } else { -1.0 };
+        let inside = outward.dot(p - foot.point) <= 0.0;
+        Ok(if inside { foot.distance } else { -foot.distance })
+    }
+}
+
+/// Range of a face's loops in its parameters, by the control points of the pcurves.
+fn range(face: &Face) -> (DVec2, DVec2) {
+    let mut low = DVec2::INFINITY;
+    let mut high = DVec2::NEG_INFINITY;
+    for coedge in face.loops.iter().flat_map(|l| &l.coedges) {
+        let (start, end) = coedge.pcurve.domain();
+        for i in 0..=8 {
+            let q = coedge.pcurve.point(start + (end - start) * f64::from(i) / 8.0);
+            low = low.min(q);
+            high = high.max(q);
+        }
+    }
+    (low, high)
+}
+
+fn coarse(probe: &Probe<'_>, face: &Face) -> Result<(DVec2, f64), BuildError> {
+    let (low, high) = range(face);
+    let spans = face.surface.breaks_u().len();
+    let (across, along) = (if spans > 24 { 13 } else { 5 }, 9);
+    let mut best = (low, f64::INFINITY);
+    for i in 0..across {
+        for j in 0..along {
+            let f = DVec2::new(f64::from(i) / f64::from(across - 1), f64::from(j) / f64::from(along - 1));
+            let q = low + (high - low) * f;
+            let thickness = probe.thickness(face.surface.point(q.x, q.y))?;
+            if thickness < best.1 {
+                best = (q, thickness);
+            }
+        }
+    }
+    Ok(best)
+}
+
+/// Pattern search about `start`: steps to the better of eight neighbours, halved where there is none.
+fn refined(probe: &Probe<'_>, face: &Face, start: DVec2) -> Result<(DVec2, f64), BuildError> {
+    let (low, high) = range(face);
+    let mut step = (high - low) * 0.08;
+    let mut best = (start, probe.thickness(face.surface.point(start.x, start.y))?);
+    for _ in 0..60 {
+        let center = best.0;
+        for direction in [
+            (1.0, 0.0),
+            (-1.0, 0.0),
+            (0.0, 1.0),
+            (0.0, -1.0),
+            (1.0, 1.0),
+            (1.0, -1.0),
+            (-1.0, 1.0),
+            (-1.0, -1.0),
+        ] {
+            let q = (center + step * DVec2::from(direction)).clamp(low, high);
+            let thickness = probe.thickness(face.surface.point(q.x, q.y))?;
+            if thickness < best.1 {
+                best = (q, thickness);
+            }
+        }
+        if best.0 == center {
+            step *= 0.5;
+            if step.max_element() < 1e-7 * (high - low).max_element() {
+                break;
+            }
+        }
+    }
+    Ok(best)
+}

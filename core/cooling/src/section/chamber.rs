@@ -1,0 +1,117 @@
+//! A chamber of one section: a ring of eight segments.
+
+use super::camber::{Camber, MarchLimits};
+use super::closure::{End, closure};
+use super::outline::Outline;
+use super::refusal::Refusal;
+use super::segment::Segment;
+use glam::DVec2;
+
+/// Segments of a ring: suction side, three of the back closure, pressure side, three of the front closure.
+pub const SEGMENTS: usize = 8;
+
+/// How a chamber ends at its front or back.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ClosureKind {
+    /// The offset profile runs on round the leading edge (front only).
+    Natural {
+        /// Parameters at which the leading edge ends: pressure side, suction side.
+        leading_edge: (f64, f64),
+    },
+    /// An arc that touches both sides.
+    Rounded {
+        /// Its radius, mm of the chart.
+        radius: f64,
+    },
+    /// A wall with fillets.
+    Wall(WallRequest),
+}
+
+/// A wall in the chart of one section; lengths in mm of the chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallRequest {
+    /// Name.
+    pub name: String,
+    /// Point of the mid line.
+    pub center: DVec2,
+    /// Unit direction, towards the suction side.
+    pub direction: DVec2,
+    /// A direction towards the trailing edge, to tell the two faces apart.
+    pub downstream: DVec2,
+    /// Half the thickness.
+    pub half_thickness: f64,
+    /// Radius of the fillets in the chamber concerned.
+    pub fillet: f64,
+}
+
+/// What a chamber is made from.
+#[derive(Clone, Debug)]
+pub struct RingRequest<'a> {
+    /// The offset outline.
+    pub outline: &'a Outline,
+    /// Camber of the offset outline.
+    pub camber: &'a Camber,
+    /// Front closure.
+    pub front: ClosureKind,
+    /// Back closure.
+    pub back: ClosureKind,
+}
+
+/// The eight segments of a chamber's section, closed, in the direction of u.
+#[derive(Clone, Debug)]
+pub struct ChamberRing {
+    /// Segments in the order of [`SEGMENTS`].
+    pub segments: [Segment; SEGMENTS],
+}
+
+/// Builds a chamber's ring.
+///
+/// # Errors
+/// A [`Refusal`] where the geometry does not exist.
+pub fn chamber_ring(request: &RingRequest<'_>) -> Result<ChamberRing, Refusal> {
+    let RingRequest { outline, camber, front, back } = request;
+    let front = closure(outline, camber, front, End::Front)?;
+    let back = closure(outline, camber, back, End::Back)?;
+    let speed = |u: f64| outline.frame(u).speed;
+    let lengths = [
+        (back.suction - front.suction) * speed(front.suction),
+        (front.pressure - back.pressure) * speed(front.pressure),
+    ];
+    let length = lengths[0].min(lengths[1]);
+    if !(length > 0.0) {
+        return Err(Refusal::ChamberTooShort { length });
+    }
+    let [b0, b1, b2] = back.segments;
+    let [f0, f1, f2] = front.segments;
+    let suction = Segment::Side { from: front.suction, to: back.suction };
+    let pressure = Segment::Side { from: back.pressure, to: front.pressure };
+    Ok(ChamberRing { segments: [suction, b0, b1, b2, pressure, f0, f1, f2] })
+}
+
+impl Camber {
+    /// Camber of an outline: the outer profile's, or an offset's.
+    ///
+    /// `nose` is the parameter in the middle of the leading edge, `leading_edge` its two ends (pressure side,
+    /// suction side); marching ends where a contact comes within 1.05 times that of the nose, or where the radius
+    /// falls below `least_radius` at (front, back).
+    ///
+    /// # Errors
+    /// [`Refusal::NoInscribedCircle`].
+    pub fn of(
+        outline: &Outline,
+        nose: f64,
+        leading_edge: (f64, f64),
+        least_radius: (f64, f64),
+        step: f64,
+    ) -> Result<Self, Refusal> {
+        let (start, end) = outline.domain();
+        let limits = MarchLimits {
+            front: (nose + 1.05 * (leading_edge.1 - nose), nose + 1.05 * (leading_edge.0 - nose)),
+            back: (end, start),
+            front_radius: least_radius.0,
+            back_radius: least_radius.1,
+            step,
+        };
+        Self::march(outline, nose, &limits)
+    }
+}

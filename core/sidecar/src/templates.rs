@@ -1,0 +1,7 @@
+//! Designs to start from: the samples that need no other file.
+
+/// Name and text of every template; the first is the default.
+pub(crate) const TEMPLATES: &[(&str, &str)] = &[
+    ("rotor", include_str!("../../../samples/rotor.json")),
+    ("c3x", include_str!("../../../samples/c3x.json")),
+];
