@@ -1,1 +1,22 @@
-//! Exporters.
+//! Writers of models: STEP for CAD, glTF, OBJ and STL for everything that takes meshes.
+//!
+//! Output depends on the model and the options alone: no clock, no thread count, no hash order. Every writer takes
+//! the names of the solids to write, all for an empty list.
+
+mod error;
+mod file;
+mod glb;
+mod materials;
+mod obj;
+mod select;
+mod step;
+mod stl;
+mod tessellate;
+
+pub use error::ExportError;
+pub use file::write_atomically;
+pub use glb::write_glb;
+pub use obj::{write_mtl, write_obj};
+pub use step::{StepOptions, write_step};
+pub use stl::write_stl;
+pub use tessellate::{FaceMesh, Tessellation, TessellationOptions, tessellate};

@@ -1,0 +1,80 @@
+//! STEP, AP214, through truck's writer.
+//!
+//! truck writes the topology; our geometry prints itself (`geometry`), and a pass over the lines (`rewrite`)
+//! puts in what truck leaves out: names, products, colours, layers and a header that readers accept.
+
+mod convert;
+mod geometry;
+mod product;
+mod rewrite;
+mod text;
+
+use crate::ExportError;
+use crate::select::select;
+use coolinggen_brep::{Model, Style};
+use rewrite::Rewriter;
+use std::fmt::Write as _;
+use std::io::{self, Write};
+use truck_stepio::out::StepModels;
+
+/// What the header of a STEP file says. Nothing is taken from the clock or the machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepOptions {
+    /// File name in the header.
+    pub name: String,
+    /// Time stamp, ISO 8601.
+    pub time_stamp: String,
+    /// Author.
+    pub author: String,
+    /// Organisation.
+    pub organisation: String,
+    /// Distance below which a reader may take points for the same, mm.
+    pub uncertainty_mm: f64,
+}
+
+impl Default for StepOptions {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            time_stamp: "1970-01-01T00:00:00".to_owned(),
+            author: String::new(),
+            organisation: String::new(),
+            uncertainty_mm: 1e-7,
+        }
+    }
+}
+
+/// Writes the solids of these names (all for an empty list) as one AP214 file in millimetres: a product a solid,
+/// each with its own copies of shared faces; face names, colours, and layers by [`Style::layer`]. A solid with
+/// voids becomes a `BREP_WITH_VOIDS`.
+///
+/// # Errors
+/// [`ExportError::UnknownSolid`], [`ExportError::NoSolid`], [`ExportError::BadTopology`],
+/// [`ExportError::BadOption`], [`ExportError::Io`].
+pub fn write_step(
+    model: &Model,
+    solids: &[&str],
+    options: &StepOptions,
+    out: &mut impl Write,
+) -> Result<(), ExportError> {
+    if !(options.uncertainty_mm > 0.0 && options.uncertainty_mm.is_finite()) {
+        return Err(ExportError::BadOption { name: "uncertainty_mm", value: options.uncertainty_mm });
+    }
+    let chosen = select(model, solids)?;
+    let names: Vec<&str> = chosen.iter().map(|s| s.name.as_str()).collect();
+    let faces = || chosen.iter().flat_map(|s| s.faces()).map(|used| model.face(used.face));
+    let face_names: Vec<&str> = faces().map(|f| f.name.as_str()).collect();
+    let styles: Vec<&Style> = faces().map(|f| &f.style).collect();
+
+    product::preamble(options, out)?;
+    let converted: Vec<convert::StepSolid<'_>> = chosen.iter().map(|s| convert::solid(model, s)).collect();
+    let models: StepModels<'_, _, _, _> = converted.iter().collect();
+    let mut rewriter = Rewriter::new(out, &names, &face_names);
+    if write!(rewriter, "{models}").is_err() {
+        let error = rewriter.error.take();
+        return Err(error.unwrap_or_else(|| io::Error::other("the STEP writer failed")).into());
+    }
+    let written = rewriter.written;
+    product::closing(&names, &styles, &written, out)?;
+    Ok(())
+}

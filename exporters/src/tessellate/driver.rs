@@ -1,0 +1,182 @@
+//! From a model to its tessellation: fields, edges, faces, points in one list.
+
+use super::boundary::{self, Node};
+use super::edges;
+use super::field::Field;
+use super::patch::Patch;
+use super::{FaceMesh, Tessellation, TessellationOptions, delaunay, rectangle};
+use crate::ExportError;
+use coolinggen_brep::{Coedge, Edge, Face, Model};
+use coolinggen_nurbs::ParametricCurve;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Rounds in which edges are cut finer where a face's border polygon crosses itself; each is a quarter of the
+/// sagitta of the last.
+const ROUNDS: usize = 10;
+/// Cells of a face's grid, or segments of an edge, beyond which tolerances are taken for a mistake.
+const MOST_CELLS: f64 = 5e7;
+
+/// Tessellates all faces of `model`.
+///
+/// # Errors
+/// [`ExportError::BadOption`]; [`ExportError::BadTopology`] for a face without a border;
+/// [`ExportError::Untriangulable`] for a face whose border crosses or touches itself however finely it is cut;
+/// [`ExportError::TooLarge`] when tolerances ask for more than 5e7 cells of a face.
+pub fn tessellate(model: &Model, options: &TessellationOptions) -> Result<Tessellation, ExportError> {
+    options.check()?;
+    let bare = |f: &&Face| f.loops.is_empty() || f.loops.iter().any(|l| l.coedges.is_empty());
+    if let Some(face) = model.faces.iter().find(bare) {
+        return Err(ExportError::BadTopology { at: face.name.clone(), what: "a face without a border" });
+    }
+    let prepare = |face: &Face| {
+        let (low, high) = parameter_box(face);
+        (low, high, Field::new(&face.surface, low, high, options))
+    };
+    let fields: Vec<(DVec2, DVec2, Field)> = model.faces.par_iter().map(prepare).collect();
+    if fields.iter().any(|(_, _, f)| !(f.u.total().max(1.0) * f.v.total().max(1.0) < MOST_CELLS)) {
+        return Err(ExportError::TooLarge { what: "triangles of a face at these tolerances" });
+    }
+    let mut uses: Vec<Vec<(&Coedge, &Field)>> = vec![Vec::new(); model.edges.len()];
+    for (face, (_, _, field)) in model.faces.iter().zip(&fields) {
+        for coedge in face.loops.iter().flat_map(|l| &l.coedges) {
+            uses[coedge.edge.0].push((coedge, field));
+        }
+    }
+    let mut factors = vec![1.0; model.edges.len()];
+    let mut round = 0;
+    loop {
+        let cut = Cut::new(model, &uses, &factors, options);
+        let fill = |(face, (low, high, field)): (&Face, &(DVec2, DVec2, Field))| {
+            fill(face, (*low, *high), field, &cut, options)
+        };
+        let filled: Vec<Result<Filled, Refusal>> = model.faces.par_iter().zip(&fields).map(fill).collect();
+        let mut crossing: Vec<usize> = Vec::new();
+        let mut done = Vec::with_capacity(filled.len());
+        for (face, filled) in model.faces.iter().zip(filled) {
+            match filled {
+                Ok(filled) => done.push(filled),
+                Err(Refusal::Wound) => {
+                    let what =
+                        "the outer loop must run counterclockwise in the parameters, inner ones clockwise";
+                    return Err(ExportError::BadTopology { at: face.name.clone(), what });
+                }
+                Err(Refusal::Crossing(_)) if round == ROUNDS => {
+                    return Err(ExportError::Untriangulable { face: face.name.clone() });
+                }
+                Err(Refusal::Crossing(edges)) => crossing.extend(edges),
+            }
+        }
+        if done.len() == model.faces.len() {
+            return assemble(cut, done);
+        }
+        crossing.sort_unstable();
+        crossing.dedup();
+        for e in crossing {
+            factors[e] *= 2.0;
+        }
+        round += 1;
+    }
+}
+
+/// Why a face has no triangles yet.
+enum Refusal {
+    /// Border segments of these edges cross or touch.
+    Crossing(Vec<usize>),
+    /// A loop runs the wrong way round.
+    Wound,
+}
+
+/// All edges cut into segments.
+struct Cut {
+    points: Vec<DVec3>,
+    parameters: Vec<Vec<f64>>,
+    polylines: Vec<Vec<u32>>,
+}
+
+impl Cut {
+    fn new(model: &Model, uses: &[Vec<(&Coedge, &Field)>], factors: &[f64], o: &TessellationOptions) -> Self {
+        let divide = |(i, edge): (usize, &Edge)| {
+            let t = edges::divide(edge, &uses[i], factors[i], o);
+            let inner: Vec<DVec3> = t[1..t.len() - 1].iter().map(|&t| edge.curve.point(t)).collect();
+            (t, inner)
+        };
+        let divided: Vec<(Vec<f64>, Vec<DVec3>)> = model.edges.par_iter().enumerate().map(divide).collect();
+        let mut out = Self { points: model.vertices.clone(), parameters: Vec::new(), polylines: Vec::new() };
+        for (edge, (t, inner)) in model.edges.iter().zip(divided) {
+            let first = out.points.len() as u32;
+            let mut polyline = vec![edge.start.0 as u32];
+            polyline.extend((0..inner.len() as u32).map(|i| first + i));
+            polyline.push(edge.end.0 as u32);
+            out.points.extend(inner);
+            out.parameters.push(t);
+            out.polylines.push(polyline);
+        }
+        out
+    }
+}
+
+fn parameter_box(face: &Face) -> (DVec2, DVec2) {
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for coedge in face.loops.iter().flat_map(|l| &l.coedges) {
+        edges::widen(&coedge.pcurve, &mut low, &mut high);
+    }
+    (low, high)
+}
+
+/// A face's border nodes and its triangles.
+struct Filled {
+    nodes: Vec<Node>,
+    patch: Patch,
+}
+
+/// Triangulates a face; or names the edges whose segments cross.
+fn fill(
+    face: &Face,
+    bounds: (DVec2, DVec2),
+    field: &Field,
+    cut: &Cut,
+    o: &TessellationOptions,
+) -> Result<Filled, Refusal> {
+    let polygons = boundary::polygons(face, bounds, &cut.parameters, &cut.polylines);
+    if polygons.iter().enumerate().any(|(i, p)| (boundary::area(p) > 0.0) != (i == 0)) {
+        return Err(Refusal::Wound);
+    }
+    let mut patch = Patch::new(&face.surface, &polygons, &cut.points);
+    let nodes: Vec<Node> = polygons.into_iter().flatten().collect();
+    let crossing = |starts: Vec<u32>| {
+        let edges = starts.into_iter().map(|n| nodes[n as usize].edge);
+        Refusal::Crossing(edges.filter(|&e| e != usize::MAX).collect())
+    };
+    if !rectangle::fill(&mut patch, &face.surface, field, o) {
+        delaunay::fill(&mut patch, &face.surface, field, o).map_err(|c| crossing(c.0))?;
+    }
+    let loose = patch.loose_border();
+    if !loose.is_empty() {
+        return Err(crossing(loose));
+    }
+    Ok(Filled { nodes, patch })
+}
+
+fn assemble(cut: Cut, filled: Vec<Filled>) -> Result<Tessellation, ExportError> {
+    let faces = Vec::with_capacity(filled.len());
+    let mut out = Tessellation { points: cut.points, edges: cut.polylines, faces };
+    for Filled { nodes, patch } in filled {
+        let border = patch.next.len();
+        let first = out.points.len();
+        let mut points: Vec<u32> = nodes.iter().map(|n| n.point).collect();
+        points.extend((first..first + patch.uv.len() - border).map(|i| i as u32));
+        out.points.extend_from_slice(&patch.at[border..]);
+        if u32::try_from(out.points.len()).is_err() {
+            return Err(ExportError::TooLarge { what: "points" });
+        }
+        let mut triangles = patch.triangles;
+        // Where a side is one point in space its triangles vanish.
+        triangles.retain(|t| {
+            let [a, b, c] = t.map(|i| points[i as usize]);
+            a != b && b != c && c != a
+        });
+        out.faces.push(FaceMesh { points, parameters: patch.uv, normals: patch.normals, triangles });
+    }
+    Ok(out)
+}
