@@ -1,0 +1,35 @@
+"""Gmsh imports every STEP file and puts a closed mesh on it. It names volumes and colours surfaces."""
+
+from __future__ import annotations
+
+import close
+
+
+def files(model):
+    return {part: model.file(part, "step") for part in model.parts}
+
+
+def test_imports_the_solids(model, gmsh):
+    for part, step in files(model).items():
+        found = gmsh.of(step)
+        assert found["volumes"] == len(model.solids(part)), part
+        assert found["surfaces"] == model.total(part, "faces"), part
+        close.assert_volume(found["mass"], model.total(part, "volume_mm3"), part)
+
+
+def test_names_the_volumes(model, gmsh):
+    for part, step in files(model).items():
+        assert set(gmsh.of(step)["names"]) >= {f"Shapes/{solid}" for solid in model.solids(part)}
+
+
+def test_keeps_the_colours_of_faces(model, gmsh):
+    for part, step in files(model).items():
+        found = gmsh.of(step)
+        assert found["coloured"] == found["surfaces"], part
+
+
+def test_meshes_the_surface_closed(model, gmsh):
+    for part, step in files(model).items():
+        found = gmsh.of(step)
+        assert found["triangles"] > 0, part
+        assert found["open_sides"] == 0, part
