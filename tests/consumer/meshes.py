@@ -153,14 +153,15 @@ def read_glb(path: Path) -> list[Node]:
     def array(index: int) -> np.ndarray:
         accessor = document["accessors"][index]
         view = document["bufferViews"][accessor["bufferView"]]
-        assert "byteStride" not in view, f"{path.name}: interleaved data is not expected"
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
         width, component = _WIDTHS[accessor["type"]], np.dtype(_COMPONENTS[accessor["componentType"]])
         assert start % component.itemsize == 0, f"{path.name}: accessor {index} is not aligned"
-        assert (start - view.get("byteOffset", 0)) + accessor["count"] * width * component.itemsize <= view[
-            "byteLength"
-        ]
-        values = np.frombuffer(binary, component, accessor["count"] * width, start).reshape(-1, width)
+        size = width * component.itemsize
+        stride = view.get("byteStride", size)
+        end = start - view.get("byteOffset", 0) + (accessor["count"] - 1) * stride + size
+        assert stride % component.itemsize == 0 and end <= view["byteLength"]
+        shape, strides = (accessor["count"], width), (stride, component.itemsize)
+        values = np.ndarray(shape, component, binary, start, strides).copy()
         if {"min", "max"} <= set(accessor):
             assert (values.min(0) == np.array(accessor["min"], component)).all(), f"{path.name}: wrong min"
             assert (values.max(0) == np.array(accessor["max"], component)).all(), f"{path.name}: wrong max"
@@ -190,7 +191,7 @@ def read_glb(path: Path) -> list[Node]:
                 normals = _blade_axes(given.astype(float)[triangles])
             stored = positions[triangles]
             corners = 1000 * _blade_axes(stored.astype(float) + translation)
-            regions.append(Region(material["name"], stored, corners, normals))
+            regions.append(Region(primitive["extras"]["name"], stored, corners, normals))
             colours[material["name"]] = tuple(material["pbrMetallicRoughness"]["baseColorFactor"])
         nodes.append(Node(node["name"], translation, regions, colours))
     return nodes

@@ -13,6 +13,7 @@ from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
 from OCP.Message import Message, Message_Gravity
 from OCP.Quantity import Quantity_ColorRGBA
+from OCP.StepShape import StepShape_AdvancedFace
 from OCP.STEPCAFControl import STEPCAFControl_Reader
 from OCP.TCollection import TCollection_AsciiString, TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
@@ -74,10 +75,20 @@ def read(path: Path) -> list[Product]:
     shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
     free = Sequence_TDF_Label()
     shapes.GetFreeShapes(free)
-    return [_product(document, leaf) for label in _items(free) for leaf in _leaves(shapes, label)]
+    transfer = reader.ChangeReader().WS().TransferReader()
+    return [_product(document, leaf, transfer) for label in _items(free) for leaf in _leaves(shapes, label)]
 
 
-def _product(document: TDocStd_Document, label: TDF_Label) -> Product:
+def _name_in_the_file(transfer, face: TopoDS_Shape) -> str | None:
+    """The name of the entity that the face was read from. The document lists only the faces of outer shells by name
+    (ExpandManifoldSolidBrep), not those of voids."""
+    entity = transfer.EntityFromShapeResult(face, 1)
+    if not isinstance(entity, StepShape_AdvancedFace) or entity.Name() is None:
+        return None
+    return entity.Name().ToCString() or None
+
+
+def _product(document: TDocStd_Document, label: TDF_Label, transfer) -> Product:
     shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
     layers = XCAFDoc_DocumentTool.LayerTool_s(document.Main())
     shape = shapes.GetShape_s(label)
@@ -90,6 +101,8 @@ def _product(document: TDocStd_Document, label: TDF_Label) -> Product:
             found = (_name(of_face), _colour(of_face), tuple(filter(None, map(_name, _items(marks)))))
         else:
             found = (None, None, ())
+        if found[0] is None:
+            found = (_name_in_the_file(transfer, face), *found[1:])
         faces.append(NamedFace(TopoDS.Face(face), *found))
     return Product(_name(label), shape, faces)
 

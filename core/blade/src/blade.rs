@@ -149,7 +149,7 @@ impl Blade {
             if !step.is_finite() {
                 break;
             }
-            let next = (w - step.max(-0.25).min(0.25)).max(low).min(high);
+            let next = (w - step.clamp(-0.25, 0.25)).max(low).min(high);
             if next == w {
                 break;
             }

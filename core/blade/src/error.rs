@@ -37,7 +37,7 @@ impl fmt::Display for BladeError {
         match self {
             Self::SpanFraction { v } => write!(f, "span fraction {v} is outside [-0.15, 1.15]"),
             Self::OutsideContours { x, r } => {
-                write!(f, "the point x = {x} mm, r = {r} mm lies outside the hub and shroud contours")
+                write!(f, "x = {x:.4} mm, r = {r:.4} mm lies beyond the ends of hub and shroud")
             }
             Self::NoCrossing { u, v, distance } => write!(
                 f,

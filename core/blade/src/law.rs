@@ -70,7 +70,8 @@ impl LawSpec {
             if !(p[0].is_finite() && p[1].is_finite()) {
                 faults.push(Fault::new(pointer.at(i), "not_finite", "the control point is not finite"));
             } else if i > 0 && !(p[0] > points[i - 1][0]) {
-                let message = format!("abscissa {} does not exceed the one before, {}", p[0], points[i - 1][0]);
+                let message =
+                    format!("abscissa {} does not exceed the one before, {}", p[0], points[i - 1][0]);
                 faults.push(
                     Fault::new(pointer.at(i).at(0), "not_increasing", message)
                         .value(p[0])
@@ -143,9 +144,10 @@ impl Law {
     pub fn bounds(&self) -> (f64, f64) {
         match &self.form {
             Form::Constant(value) => (*value, *value),
-            Form::Spline(curve) => {
-                curve.points().iter().fold((f64::INFINITY, f64::NEG_INFINITY), |b, p| (b.0.min(p.y), b.1.max(p.y)))
-            }
+            Form::Spline(curve) => curve
+                .points()
+                .iter()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |b, p| (b.0.min(p.y), b.1.max(p.y))),
         }
     }
 }

@@ -24,5 +24,7 @@ pub use source::sections::{Extreme, SectionSpec, SectionsSource};
 pub use source::step::StepSource;
 pub use source::surface::SurfaceSource;
 pub use source::{BladeSource, build};
-pub use stream::{Annular, ContourSpec, Linear, SpaceSpec, SplineSpec, StreamSpace, StreamSurface, StreamlineSpec};
+pub use stream::{
+    Annular, ContourSpec, Linear, SpaceSpec, SplineSpec, StreamSpace, StreamSurface, StreamlineSpec,
+};
 pub use surface::BladeSurface;

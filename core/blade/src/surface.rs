@@ -59,7 +59,8 @@ impl BladeSurface {
         let middle = looks.iter().map(|l| l.0).sum::<DVec3>() / f64::from(n);
         let along = looks.iter().map(|l| l.2).sum::<DVec3>();
         let next = looks.iter().cycle().skip(1);
-        looks.iter().zip(next).map(|(a, b)| (a.0 - middle).cross(b.0 - middle)).sum::<DVec3>().dot(along) > 0.0
+        looks.iter().zip(next).map(|(a, b)| (a.0 - middle).cross(b.0 - middle)).sum::<DVec3>().dot(along)
+            > 0.0
     }
 
     /// The surface longer in w by `below` and `above`, where its end polynomials go on.

@@ -34,7 +34,7 @@ fn check_shape(space: &StreamSpace, blade: &Blade) {
     }
     for i in 0..=20 {
         let w = low + (high - low) * f64::from(i) / 20.0;
-        assert_eq!(blade.surface.point(0.0, w), blade.surface.point(1.0, w));
+        assert!(blade.surface.point(0.0, w).distance(blade.surface.point(1.0, w)) < 1e-12);
         for (_, [joint, _]) in &blade.regions {
             let before = if *joint == 0.0 { 1.0 } else { *joint };
             let (_, u, _) = blade.surface.first_derivatives(before - 1e-12, w);
@@ -82,7 +82,8 @@ fn the_c3x_vane_is_drawn_faithfully() {
     }
     // The polygon of the points has 2531.2 mm2.
     let surface = space.surface(0.5).unwrap();
-    let outline: Vec<DVec2> = blade.profile(&surface, &around(20_000)).unwrap().into_iter().map(|(_, q)| q).collect();
+    let outline: Vec<DVec2> =
+        blade.profile(&surface, &around(20_000)).unwrap().into_iter().map(|(_, q)| q).collect();
     let area = polygon_area(&outline).abs();
     assert!((area / 2531.2 - 1.0).abs() < 0.003, "{area}");
     // Both edges are circles of the report's radii.
@@ -112,8 +113,9 @@ fn the_c3x_vane_is_drawn_faithfully() {
         }
         count
     };
-    assert_eq!(turns(&suction, 1.5e-3), 1);
-    assert_eq!(turns(&pressure, 1.5e-3), 0);
+    // One hump behind the leading edge and one hollow, the nearly straight rear.
+    assert_eq!(turns(&suction, 5e-4), 2);
+    assert_eq!(turns(&pressure, 5e-4), 0);
 }
 
 #[test]
@@ -144,7 +146,8 @@ fn any_start_direction_and_order_of_points_gives_the_same_vane() {
         json!({"points": listed(points), "trailing_edge": 33}),
     ];
     for way in ways {
-        let (space, blade) = built(&json!({"space": linear(), "blade": {"kind": "sections", "sections": [way]}}));
+        let (space, blade) =
+            built(&json!({"space": linear(), "blade": {"kind": "sections", "sections": [way]}}));
         check_shape(&space, &blade);
         assert_eq!(blade.outward, reference.outward);
         for (a, b) in blade.regions.iter().zip(&reference.regions) {
@@ -210,7 +213,8 @@ fn aerofoil(n: usize, chord: f64, open: bool) -> (Vec<DVec2>, Vec<DVec2>) {
 fn sharp_and_blunt_trailing_edges_and_smooth_noses_are_recognised() {
     let (upper, lower) = aerofoil(60, 50.0, false);
     let section = json!({"suction_side": listed(&upper), "pressure_side": listed(&lower)});
-    let (space, blade) = built(&json!({"space": linear(), "blade": {"kind": "sections", "sections": [section]}}));
+    let (space, blade) =
+        built(&json!({"space": linear(), "blade": {"kind": "sections", "sections": [section]}}));
     check_shape(&space, &blade);
     assert!(blade.is_sharp());
     assert_eq!(names(&blade), ["leading_edge", "suction_side", "pressure_side"]);
@@ -219,7 +223,8 @@ fn sharp_and_blunt_trailing_edges_and_smooth_noses_are_recognised() {
     assert!(blade.surface.point(kink, 0.5).truncate().distance(DVec2::new(50.0, 0.0)) < 1e-9);
     // The nose: radius 1.1019 t^2 c of the law, times (0.9 / 0.2 * 0.2)^2... the tip is near the origin.
     let [a, b] = blade.range(Region::LeadingEdge).unwrap();
-    let inside = (1..50).any(|i| blade.surface.point(a + (b - a) * f64::from(i) / 50.0, 0.5).truncate().length() < 0.2);
+    let inside = (1..50)
+        .any(|i| blade.surface.point(a + (b - a) * f64::from(i) / 50.0, 0.5).truncate().length() < 0.2);
     assert!(inside);
 
     let (upper, lower) = aerofoil(60, 50.0, true);
@@ -227,13 +232,16 @@ fn sharp_and_blunt_trailing_edges_and_smooth_noses_are_recognised() {
     let mut points = upper.clone();
     points.extend(lower[1..].iter().rev());
     for section in [section, json!({"points": listed(&points)})] {
-        let (_, blade) = built(&json!({"space": linear(), "blade": {"kind": "sections", "sections": [section]}}));
+        let (_, blade) =
+            built(&json!({"space": linear(), "blade": {"kind": "sections", "sections": [section]}}));
         assert_eq!(names(&blade).len(), 4);
         let [a, b] = blade.range(Region::TrailingEdge).unwrap();
         let ends = [a, b].map(|u| blade.surface.point(u, 0.5).truncate());
         assert!(ends[0].distance(upper[59]) < 1e-9 && ends[1].distance(lower[59]) < 1e-9);
         // The base is straight.
-        assert!(blade.surface.point(0.5 * (a + b), 0.5).truncate().distance(0.5 * (ends[0] + ends[1])) < 1e-9);
+        assert!(
+            blade.surface.point(0.5 * (a + b), 0.5).truncate().distance(0.5 * (ends[0] + ends[1])) < 1e-9
+        );
     }
 }
 
@@ -245,11 +253,12 @@ fn an_ellipse_has_smooth_edges_at_its_ends() {
             DVec2::new(20.0 * a.cos(), 6.0 * a.sin())
         })
         .collect();
-    let design = json!({"space": linear(), "blade": {"kind": "sections", "sections": [{"points": listed(&points)}]}});
+    let design =
+        json!({"space": linear(), "blade": {"kind": "sections", "sections": [{"points": listed(&points)}]}});
     let (space, blade) = built(&design);
     check_shape(&space, &blade);
     assert_eq!(names(&blade).len(), 4);
-    assert!(blade.fit.greatest_distance_mm < 1e-5);
+    assert!(blade.fit.greatest_distance_mm < 1e-5, "{}", blade.fit.greatest_distance_mm);
     for (region, x) in [(Region::LeadingEdge, -20.0), (Region::TrailingEdge, 20.0)] {
         let [a, b] = blade.range(region).unwrap();
         let tip = blade.surface.point(0.5 * (a + b), 0.5);
@@ -289,7 +298,8 @@ fn planar_sections_in_an_annulus_are_cut() {
 #[test]
 fn refuses_bad_sections_with_all_faults_at_once() {
     let points = c3x_points()[..78].to_vec();
-    let one = |section: Value| json!({"space": linear(), "blade": {"kind": "sections", "sections": [section]}});
+    let one =
+        |section: Value| json!({"space": linear(), "blade": {"kind": "sections", "sections": [section]}});
     let at = |pointer: &str, code: &'static str| (format!("/blade{pointer}"), code);
 
     let mut duplicate = points.clone();
@@ -306,15 +316,20 @@ fn refuses_bad_sections_with_all_faults_at_once() {
 
     assert_eq!(refused(&one(json!({"points": []}))), [at("/sections/0", "point_count")]);
     assert_eq!(refused(&one(json!({}))), [at("/sections/0", "missing")]);
-    assert_eq!(refused(&one(json!({"points": [[0, 0]], "suction_side": [[0, 0]]}))), [at("/sections/0", "missing")]);
-    assert_eq!(refused(&one(json!({"points": listed(&points), "leading_edge": 900}))), [
-        at("/sections/0/leading_edge", "out_of_range")
-    ]);
+    assert_eq!(
+        refused(&one(json!({"points": [[0, 0]], "suction_side": [[0, 0]]}))),
+        [at("/sections/0", "missing")]
+    );
+    assert_eq!(
+        refused(&one(json!({"points": listed(&points), "leading_edge": 900}))),
+        [at("/sections/0/leading_edge", "out_of_range")]
+    );
     let flat: Vec<DVec2> = (0..40).map(|i| DVec2::new(f64::from(i), 2.0)).collect();
     assert!(!refused(&one(json!({"points": listed(&flat)}))).is_empty());
     let none = json!({"space": linear(), "blade": {"kind": "sections", "sections": []}});
     assert_eq!(refused(&none), [at("/sections", "section_count")]);
-    let million = json!({"space": linear(), "blade": {"kind": "sections", "sections": vec![json!({}); 100_000]}});
+    let million =
+        json!({"space": linear(), "blade": {"kind": "sections", "sections": vec![json!({}); 100_000]}});
     assert_eq!(refused(&million), [at("/sections", "section_count")]);
 
     // Several at once, in several sections.
@@ -333,6 +348,7 @@ fn refuses_bad_sections_with_all_faults_at_once() {
 
     // The contours must cover the blade.
     let mut rotor = rotor(&[0.0, 0.5, 1.0]);
-    rotor["space"] = json!({"kind": "annular", "hub": [[-30, 250], [20, 251]], "shroud": [[-30, 305], [20, 306]]});
-    assert_eq!(refused(&rotor)[0], ("/space".to_owned(), "blade_outside_contours"));
+    rotor["space"] =
+        json!({"kind": "annular", "hub": [[-30, 250], [20, 251]], "shroud": [[-30, 305], [20, 306]]});
+    assert_eq!(refused(&rotor)[0], ("/space".to_owned(), "outside_contours"));
 }

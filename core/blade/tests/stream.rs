@@ -26,7 +26,8 @@ fn with_reference(space: StreamSpace, s: f64, angle: f64) -> StreamSpace {
 /// A wavy annulus of a turbine.
 fn wavy() -> StreamSpace {
     let x = |i: u32| -30.0 + 10.0 * f64::from(i);
-    let hub: Vec<_> = (0..=11).map(|i| json!([x(i), 250.0 + x(i) / 20.0 + 0.5 * (x(i) / 12.0).sin()])).collect();
+    let hub: Vec<_> =
+        (0..=11).map(|i| json!([x(i), 250.0 + x(i) / 20.0 + 0.5 * (x(i) / 12.0).sin()])).collect();
     let shroud: Vec<_> = (0..=11).map(|i| json!([x(i), 305.0 + x(i) / 4.0 - (x(i) / 14.0).sin()])).collect();
     space(json!({"kind": "annular", "hub": hub, "shroud": shroud}))
 }
@@ -70,7 +71,9 @@ fn a_cylinder_and_a_cone_have_closed_forms() {
 
 #[test]
 fn a_collinear_list_is_the_same_as_its_ends() {
-    let a = space(json!({"kind": "annular", "hub": [[0, 100], [20, 104], [50, 110]], "shroud": [[0, 140], [50, 170]]}));
+    let a = space(
+        json!({"kind": "annular", "hub": [[0, 100], [20, 104], [50, 110]], "shroud": [[0, 140], [50, 170]]}),
+    );
     let surface = a.surface(0.0).unwrap();
     assert_eq!(surface.meridian().unwrap().degree(), 1);
     assert!(matches!(
@@ -139,17 +142,25 @@ fn the_level_grows_towards_the_shroud() {
 #[test]
 fn refuses_bad_spaces_with_pointers() {
     let ok = json!([[0, 100], [50, 100]]);
-    let refused = |hub: Value, shroud: Value| refusals(json!({"kind": "annular", "hub": hub, "shroud": shroud}));
+    let refused =
+        |hub: Value, shroud: Value| refusals(json!({"kind": "annular", "hub": hub, "shroud": shroud}));
     let swapped = refused(json!([[0, 150], [50, 150]]), ok.clone());
     assert_eq!(swapped, vec![("/shroud".to_owned(), "hub_above_shroud")]);
     let crossing = refused(json!([[0, 90], [50, 120]]), ok.clone());
     assert_eq!(crossing[0].1, "hub_above_shroud");
     let both = refused(json!([[0, -1], [50, 90]]), json!([[0, 100], [0, 100]]));
-    assert_eq!(both, vec![("/hub/0/1".to_owned(), "out_of_range"), ("/shroud/1".to_owned(), "duplicate_point")]);
+    assert_eq!(
+        both,
+        vec![("/hub/0/1".to_owned(), "out_of_range"), ("/shroud/1".to_owned(), "duplicate_point")]
+    );
     assert_eq!(refused(json!([[0, 90]]), ok.clone())[0].1, "point_count");
-    let kinked = json!({"degree": 2, "knots": [0,0,0,1,1,2,2,2], "points": [[0,50],[10,50],[20,50],[30,50],[40,60]]});
+    let kinked =
+        json!({"degree": 2, "knots": [0,0,0,1,1,2,2,2], "points": [[0,50],[10,50],[20,50],[30,50],[40,60]]});
     assert_eq!(refused(kinked, ok)[0], ("/hub/knots".to_owned(), "bad_contour"));
-    assert_eq!(refusals(json!({"kind": "linear", "height": -3})), vec![("/height".to_owned(), "out_of_range")]);
+    assert_eq!(
+        refusals(json!({"kind": "linear", "height": -3})),
+        vec![("/height".to_owned(), "out_of_range")]
+    );
     let lines = json!({"kind": "streamlines", "streamlines": [
         {"v": 0.1, "contour": [[0, 100], [50, 110]]}, {"v": 0.05, "contour": [[0, 140], [50, 170]]}]});
     assert_eq!(refusals(lines).len(), 2);

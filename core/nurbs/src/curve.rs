@@ -1,7 +1,7 @@
 //! B-spline curves and their rational form.
 
 use crate::error::NurbsError;
-use crate::knots::{Basis, Knots};
+use crate::knots::{Knots, MAX_DEGREE};
 use crate::vector::{Homogeneous, VectorSpace};
 
 /// What the methods on curves ask of a curve; B-splines, rational B-splines and offsets are such curves.
@@ -102,13 +102,32 @@ impl<V: VectorSpace> Curve<V> {
         self.knots.degree()
     }
 
-    fn combine(&self, basis: &Basis, order: usize) -> V {
-        let p = self.degree();
-        let mut sum = V::default();
-        for (&n, &c) in basis.values[order][..=p].iter().zip(&self.points[basis.first..=basis.first + p]) {
-            sum = sum + c * n;
+    /// Point and the derivatives up to `ORDER` (at most 2).
+    #[inline]
+    fn table<const ORDER: usize>(&self, t: f64) -> [V; 3] {
+        // The usual degrees have loops of known length.
+        match self.degree() {
+            1 => self.table_of::<ORDER, 2>(t),
+            2 => self.table_of::<ORDER, 3>(t),
+            3 => self.table_of::<ORDER, 4>(t),
+            5 => self.table_of::<ORDER, 6>(t),
+            _ => self.table_of::<ORDER, { MAX_DEGREE + 1 }>(t),
         }
-        sum
+    }
+
+    #[inline]
+    fn table_of<const ORDER: usize, const N: usize>(&self, t: f64) -> [V; 3] {
+        let span = self.knots.span(t);
+        let p = if N <= MAX_DEGREE { N - 1 } else { self.degree() };
+        let basis = self.knots.basis_on::<N>(span, p, t);
+        let points = &self.points[span - p..=span];
+        let mut out = [V::default(); 3];
+        for (sum, row) in out.iter_mut().zip(&basis).take(ORDER + 1) {
+            for k in 0..=p {
+                *sum = *sum + points[k] * row[k];
+            }
+        }
+        out
     }
 
     /// The curve with the same knots whose control points are `f` of these: exact for every affine `f`.
@@ -119,7 +138,17 @@ impl<V: VectorSpace> Curve<V> {
     /// The same points run through backwards, on the same domain.
     pub fn reversed(&self) -> Self {
         let (start, end) = self.knots.domain();
-        let values: Vec<f64> = self.knots.values().iter().rev().map(|k| start + (end - k)).collect();
+        // The ends of the domain stay what they are, whatever rounding does between.
+        let mirror = |&k: &f64| {
+            if k == end {
+                start
+            } else if k == start {
+                end
+            } else {
+                start + (end - k)
+            }
+        };
+        let values: Vec<f64> = self.knots.values().iter().rev().map(mirror).collect();
         let knots = Knots::new(self.degree(), values).expect("mirrored knots keep their order");
         Self { knots, points: self.points.iter().rev().copied().collect() }
     }
@@ -149,12 +178,11 @@ impl<V: VectorSpace> ParametricCurve<V> for Curve<V> {
     }
 
     fn point(&self, t: f64) -> V {
-        self.combine(&self.knots.basis(t, 0), 0)
+        self.table::<0>(t)[0]
     }
 
     fn derivatives(&self, t: f64) -> [V; 3] {
-        let basis = self.knots.basis(t, 2);
-        [0, 1, 2].map(|order| self.combine(&basis, order))
+        self.table::<2>(t)
     }
 
     fn third_derivative(&self, t: f64) -> V {

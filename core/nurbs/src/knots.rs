@@ -179,7 +179,8 @@ impl Knots {
     }
 
     /// Clamped knots for `count` control points that give every span its share of increasing `parameters` (*The
-    /// NURBS Book*, equations 9.68 and 9.69): least-squares fits on them are well posed.
+    /// NURBS Book*, equations 9.68 and 9.69): least-squares fits on them are well posed, unless `count` comes close to the
+    /// number of data.
     ///
     /// # Errors
     /// [`NurbsError::PointCount`] unless `degree < count <= parameters.len()`; as [`Knots::new`].

@@ -25,7 +25,7 @@ proptest! {
 
     #[test]
     fn constraints_hold_and_nothing_near_is_better(
-        k in knots(2..=5),
+        k in knots(2..=5).prop_filter("room for the constraints", |k| k.control_count() > 6),
         data in proptest::collection::vec(common::point(), 60),
         ends in (common::point(), common::point(), common::point()),
         shift in proptest::collection::vec(common::point(), 60),
@@ -33,7 +33,6 @@ proptest! {
     ) {
         let t = even(59);
         let last = k.control_count() - 1;
-        prop_assume!(last >= 6);
         let constraints = [
             Constraint::derivative(&k, 0.0, 0).unwrap(),
             Constraint::derivative(&k, 1.0, 0).unwrap(),
@@ -229,6 +228,29 @@ fn few_knots_reach_a_tolerance() {
         assert!(fit.curve.points().len() < 160, "{}", fit.curve.points().len());
     }
     assert!(matches!(fit_within(3, &t, &data, true, 1e-16), Err(NurbsError::NoConvergence { .. })));
+}
+
+#[test]
+fn chosen_knots_leave_no_control_point_without_data() {
+    for degree in 1..=7 {
+        for n in [degree + 1, 20, 53] {
+            let t: Vec<f64> = (0..n).map(|i| (i as f64 + 0.4 * noise(i).abs()) / n as f64).collect();
+            let data: Vec<f64> = (0..n).map(noise).collect();
+            for count in (degree + 1..=n).step_by(3) {
+                let k = Knots::for_fit(degree, &t, count).unwrap();
+                assert_eq!(k.control_count(), count);
+                let fit = LeastSquares::new(k, &t, None, &[], None).and_then(|f| f.curve(&data, &[]));
+                let Ok(fit) = fit else {
+                    assert!(10 * count > 9 * n, "{degree} {n} {count} {fit:?}");
+                    continue;
+                };
+                // Never worse than the curve that is zero everywhere.
+                let size = (data.iter().map(|d| d * d).sum::<f64>() / n as f64).sqrt();
+                assert!(fit.rms <= size, "{degree} {n} {count} {} {size}", fit.rms);
+            }
+        }
+    }
+    assert!(matches!(Knots::for_fit(3, &even(9), 11), Err(NurbsError::PointCount { .. })));
 }
 
 #[test]

@@ -6,6 +6,7 @@
 use super::text::{List, Real, Ref, Text};
 use coolinggen_nurbs::{Curve, Homogeneous, Knots, RationalCurve, RationalSurface, Surface};
 use glam::DVec3;
+use std::borrow::Cow;
 use std::fmt::{Formatter, Result};
 use truck_stepio::out::{DisplayByStep, StepCurve, StepLength, StepSurface};
 
@@ -148,7 +149,7 @@ pub(crate) enum Form<'a> {
     /// `SURFACE_OF_REVOLUTION` about an axis through the origin.
     Revolved { meridian: Curve<DVec3>, axis: DVec3 },
     /// `B_SPLINE_SURFACE_WITH_KNOTS`.
-    BSpline(&'a Surface<DVec3>),
+    BSpline(Cow<'a, Surface<DVec3>>),
     /// The same, rational.
     Rational(&'a RationalSurface<DVec3>),
 }

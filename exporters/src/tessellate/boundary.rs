@@ -118,11 +118,3 @@ pub(crate) fn polygons(
     }
     out
 }
-
-/// Area of a polygon in the parameters, positive counterclockwise. Of a border cut too coarsely to enclose
-/// anything it is zero.
-pub(crate) fn area(polygon: &[Node]) -> f64 {
-    let base = polygon[0].uv;
-    let next = polygon.iter().cycle().skip(1);
-    polygon.iter().zip(next).map(|(a, b)| 0.5 * (a.uv - base).perp_dot(b.uv - base)).sum()
-}

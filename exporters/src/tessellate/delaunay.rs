@@ -9,8 +9,8 @@ use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 use std::collections::HashSet;
 
-/// Rounds of refinement; each at least halves what is left of a smooth deviation.
-const ROUNDS: usize = 14;
+/// Rounds of refinement; three or four are the rule.
+const ROUNDS: usize = 20;
 /// Density of the first grid, as a share of what curvature at its worst asks for.
 const START: f64 = 0.5;
 /// Refinement bounds the turn of the normal over a triangle's side at this many times the angle asked for, which is
@@ -35,19 +35,24 @@ impl HasPosition for Vertex {
 
 type Cdt = ConstrainedDelaunayTriangulation<Vertex>;
 
-/// Border segments, by their first nodes, that cross others.
-pub(crate) struct Crossing(pub(crate) Vec<u32>);
+/// Why a border cannot be triangulated.
+pub(crate) enum Unfit {
+    /// Segments, by their first nodes, that cross others: finer ones may not.
+    Crossing(Vec<u32>),
+    /// Two nodes lie in one place.
+    Touching,
+}
 
-/// Fills the patch.
+/// Fills the patch and says whether its triangles then keep the tolerances.
 ///
 /// # Errors
-/// [`Crossing`] where border segments cross each other.
+/// [`Unfit`] for a border that crosses or touches itself.
 pub(crate) fn fill(
     patch: &mut Patch,
     surface: &SurfaceGeometry,
     field: &Field,
     o: &TessellationOptions,
-) -> Result<(), Crossing> {
+) -> Result<bool, Unfit> {
     patch.clear();
     // A coarse grid, refined where it must be, ends with fewer triangles than one that is fine enough everywhere.
     let density = if o.max_edge_mm.is_some() { 1.0 } else { START };
@@ -59,7 +64,7 @@ pub(crate) fn fill(
     let mut verified: HashSet<[u32; 3]> = HashSet::new();
     let limits =
         Limits { turn: (DIAGONAL * o.angle()).cos(), shortest: 0.1 * o.chord_mm, close: 0.6 * o.chord_mm };
-    for round in 0..=ROUNDS {
+    for _ in 0..ROUNDS {
         patch.triangles = inside(&cdt);
         let mut faults: Vec<Fault> = Vec::new();
         patch.inspect(
@@ -84,11 +89,15 @@ pub(crate) fn fill(
                 triangle,
             }));
         }
-        if faults.is_empty() || round == ROUNDS || !refine(&mut cdt, patch, surface, &map, faults) {
+        if faults.is_empty() {
+            return Ok(true);
+        }
+        if !refine(&mut cdt, patch, surface, &map, faults) {
             break;
         }
     }
-    Ok(())
+    patch.triangles = inside(&cdt);
+    Ok(false)
 }
 
 fn sorted(mut t: [u32; 3]) -> [u32; 3] {
@@ -121,7 +130,7 @@ fn clean(x: f64) -> f64 {
 
 /// Nodes of the field's grid inside the border and not too close to it.
 fn grid(patch: &Patch, field: &Field, density: f64) -> Vec<DVec2> {
-    let (us, vs) = (field.u.divide(density), field.v.divide(density));
+    let (us, vs) = (field.u.divide(density * field.more.x), field.v.divide(density * field.more.y));
     let (us, vs) = (&us[1..us.len() - 1], &vs[1..vs.len() - 1]);
     if us.is_empty() || vs.is_empty() {
         return Vec::new();
@@ -165,20 +174,18 @@ fn grid(patch: &Patch, field: &Field, density: f64) -> Vec<DVec2> {
     out
 }
 
-fn triangulate(patch: &Patch, map: &Map) -> Result<Cdt, Crossing> {
+fn triangulate(patch: &Patch, map: &Map) -> Result<Cdt, Unfit> {
     let vertices: Vec<Vertex> = patch.uv.iter().enumerate().map(|(i, &p)| map.vertex(p, i as u32)).collect();
     let segments = patch.next.iter().enumerate().map(|(a, &b)| [a, b as usize]).collect();
     let count = vertices.len();
     let mut refused: Vec<[usize; 2]> = Vec::new();
     let cdt = Cdt::try_bulk_load_cdt(vertices, segments, |edge| refused.push(edge));
-    let all = || Crossing((0..patch.next.len() as u32).collect());
-    let cdt = cdt.map_err(|_| all())?;
-    if refused.is_empty() && cdt.num_vertices() == count {
-        return Ok(cdt);
-    }
+    let cdt = cdt.map_err(|_| Unfit::Touching)?;
     if cdt.num_vertices() != count {
-        // Two nodes in one place: the border touches itself.
-        return Err(all());
+        return Err(Unfit::Touching);
+    }
+    if refused.is_empty() {
+        return Ok(cdt);
     }
     let mut crossing: Vec<u32> = Vec::new();
     let first = |a: u32, b: u32| if patch.next.get(a as usize) == Some(&b) { a } else { b };
@@ -192,7 +199,7 @@ fn triangulate(patch: &Patch, map: &Map) -> Result<Cdt, Crossing> {
     }
     crossing.sort_unstable();
     crossing.dedup();
-    Err(Crossing(crossing))
+    Err(Unfit::Crossing(crossing))
 }
 
 /// Triangles inside the border: an odd number of border crossings away from the outside.

@@ -6,7 +6,7 @@ use super::field::Field;
 use super::patch::Patch;
 use super::{FaceMesh, Tessellation, TessellationOptions, delaunay, rectangle};
 use crate::ExportError;
-use coolinggen_brep::{Coedge, Edge, Face, Model};
+use coolinggen_brep::{Coedge, Edge, Face, FaceId, Model};
 use coolinggen_nurbs::ParametricCurve;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -15,19 +15,23 @@ use rayon::prelude::*;
 /// sagitta of the last.
 const ROUNDS: usize = 10;
 /// Cells of a face's grid, or segments of an edge, beyond which tolerances are taken for a mistake.
-const MOST_CELLS: f64 = 5e7;
+const MOST_CELLS: f64 = 2e7;
 
 /// Tessellates all faces of `model`.
 ///
 /// # Errors
 /// [`ExportError::BadOption`]; [`ExportError::BadTopology`] for a face without a border;
 /// [`ExportError::Untriangulable`] for a face whose border crosses or touches itself however finely it is cut;
-/// [`ExportError::TooLarge`] when tolerances ask for more than 5e7 cells of a face.
+/// [`ExportError::TooLarge`] when tolerances ask for more than 2e7 cells of a face.
 pub fn tessellate(model: &Model, options: &TessellationOptions) -> Result<Tessellation, ExportError> {
     options.check()?;
     let bare = |f: &&Face| f.loops.is_empty() || f.loops.iter().any(|l| l.coedges.is_empty());
     if let Some(face) = model.faces.iter().find(bare) {
         return Err(ExportError::BadTopology { at: face.name.clone(), what: "a face without a border" });
+    }
+    if let Some(face) = model.faces.par_iter().find_first(|f| wound(f)) {
+        let what = "the outer loop must run counterclockwise in the parameters, inner ones clockwise";
+        return Err(ExportError::BadTopology { at: face.name.clone(), what });
     }
     let prepare = |face: &Face| {
         let (low, high) = parameter_box(face);
@@ -43,10 +47,10 @@ pub fn tessellate(model: &Model, options: &TessellationOptions) -> Result<Tessel
             uses[coedge.edge.0].push((coedge, field));
         }
     }
-    let mut factors = vec![1.0; model.edges.len()];
+    let mut least = vec![1; model.edges.len()];
     let mut round = 0;
     loop {
-        let cut = Cut::new(model, &uses, &factors, options);
+        let cut = Cut::new(model, &uses, &least, options);
         let fill = |(face, (low, high, field)): (&Face, &(DVec2, DVec2, Field))| {
             fill(face, (*low, *high), field, &cut, options)
         };
@@ -56,24 +60,15 @@ pub fn tessellate(model: &Model, options: &TessellationOptions) -> Result<Tessel
         for (face, filled) in model.faces.iter().zip(filled) {
             match filled {
                 Ok(filled) => done.push(filled),
-                Err(Refusal::Wound) => {
-                    let what =
-                        "the outer loop must run counterclockwise in the parameters, inner ones clockwise";
-                    return Err(ExportError::BadTopology { at: face.name.clone(), what });
-                }
-                Err(Refusal::Crossing(_)) if round == ROUNDS => {
-                    return Err(ExportError::Untriangulable { face: face.name.clone() });
-                }
-                Err(Refusal::Crossing(edges)) => crossing.extend(edges),
+                Err(Refusal::Crossing(edges)) if round < ROUNDS => crossing.extend(edges),
+                Err(_) => return Err(ExportError::Untriangulable { face: face.name.clone() }),
             }
         }
         if done.len() == model.faces.len() {
             return assemble(cut, done);
         }
-        crossing.sort_unstable();
-        crossing.dedup();
         for e in crossing {
-            factors[e] *= 2.0;
+            least[e] = 2 * (cut.parameters[e].len() - 1);
         }
         round += 1;
     }
@@ -81,10 +76,22 @@ pub fn tessellate(model: &Model, options: &TessellationOptions) -> Result<Tessel
 
 /// Why a face has no triangles yet.
 enum Refusal {
-    /// Border segments of these edges cross or touch.
+    /// Border segments of these edges cross.
     Crossing(Vec<usize>),
-    /// A loop runs the wrong way round.
-    Wound,
+    /// The border meets itself in a node.
+    Touching,
+}
+
+/// Whether a loop of the face runs the wrong way round.
+fn wound(face: &Face) -> bool {
+    face.loops.iter().enumerate().any(|(i, bound)| {
+        let points = bound.coedges.iter().flat_map(|c| (0..24).map(|k| c.parameter_at(f64::from(k) / 24.0)));
+        let points: Vec<DVec2> = points.collect();
+        let from = |p: DVec2| p - points[0];
+        let next = points.iter().cycle().skip(1);
+        let area: f64 = points.iter().zip(next).map(|(&p, &q)| from(p).perp_dot(from(q))).sum();
+        (area > 0.0) != (i == 0)
+    })
 }
 
 /// All edges cut into segments.
@@ -95,9 +102,9 @@ struct Cut {
 }
 
 impl Cut {
-    fn new(model: &Model, uses: &[Vec<(&Coedge, &Field)>], factors: &[f64], o: &TessellationOptions) -> Self {
+    fn new(model: &Model, uses: &[Vec<(&Coedge, &Field)>], least: &[usize], o: &TessellationOptions) -> Self {
         let divide = |(i, edge): (usize, &Edge)| {
-            let t = edges::divide(edge, &uses[i], factors[i], o);
+            let t = edges::divide(edge, &uses[i], least[i], o);
             let inner: Vec<DVec3> = t[1..t.len() - 1].iter().map(|&t| edge.curve.point(t)).collect();
             (t, inner)
         };
@@ -118,7 +125,8 @@ impl Cut {
 
 fn parameter_box(face: &Face) -> (DVec2, DVec2) {
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for coedge in face.loops.iter().flat_map(|l| &l.coedges) {
+    // The first loop goes round the others.
+    for coedge in face.loops.iter().take(1).flat_map(|l| &l.coedges) {
         edges::widen(&coedge.pcurve, &mut low, &mut high);
     }
     (low, high)
@@ -128,6 +136,8 @@ fn parameter_box(face: &Face) -> (DVec2, DVec2) {
 struct Filled {
     nodes: Vec<Node>,
     patch: Patch,
+    /// Whether the triangles keep the tolerances.
+    kept: bool,
 }
 
 /// Triangulates a face; or names the edges whose segments cross.
@@ -139,29 +149,34 @@ fn fill(
     o: &TessellationOptions,
 ) -> Result<Filled, Refusal> {
     let polygons = boundary::polygons(face, bounds, &cut.parameters, &cut.polylines);
-    if polygons.iter().enumerate().any(|(i, p)| (boundary::area(p) > 0.0) != (i == 0)) {
-        return Err(Refusal::Wound);
-    }
     let mut patch = Patch::new(&face.surface, &polygons, &cut.points);
     let nodes: Vec<Node> = polygons.into_iter().flatten().collect();
     let crossing = |starts: Vec<u32>| {
         let edges = starts.into_iter().map(|n| nodes[n as usize].edge);
         Refusal::Crossing(edges.filter(|&e| e != usize::MAX).collect())
     };
+    let mut kept = true;
     if !rectangle::fill(&mut patch, &face.surface, field, o) {
-        delaunay::fill(&mut patch, &face.surface, field, o).map_err(|c| crossing(c.0))?;
+        kept = delaunay::fill(&mut patch, &face.surface, field, o).map_err(|unfit| match unfit {
+            delaunay::Unfit::Crossing(starts) => crossing(starts),
+            delaunay::Unfit::Touching => Refusal::Touching,
+        })?;
     }
+    // Too coarse a border encloses nothing, or the wrong side.
     let loose = patch.loose_border();
     if !loose.is_empty() {
         return Err(crossing(loose));
     }
-    Ok(Filled { nodes, patch })
+    Ok(Filled { nodes, patch, kept })
 }
 
 fn assemble(cut: Cut, filled: Vec<Filled>) -> Result<Tessellation, ExportError> {
     let faces = Vec::with_capacity(filled.len());
-    let mut out = Tessellation { points: cut.points, edges: cut.polylines, faces };
-    for Filled { nodes, patch } in filled {
+    let mut out = Tessellation { points: cut.points, edges: cut.polylines, faces, coarse: Vec::new() };
+    for (i, Filled { nodes, patch, kept }) in filled.into_iter().enumerate() {
+        if !kept {
+            out.coarse.push(FaceId(i));
+        }
         let border = patch.next.len();
         let first = out.points.len();
         let mut points: Vec<u32> = nodes.iter().map(|n| n.point).collect();

@@ -10,11 +10,12 @@ use glam::{DVec2, DVec3};
 /// Parameters at which an edge is cut into segments, both ends included.
 ///
 /// Segments keep the chord and angle tolerances on the curve, and span at most one grid step of each face they
-/// border (`uses`), so that the faces' triangles can keep theirs next to it.
+/// border (`uses`), so that the faces' triangles can keep theirs next to it. There are at least `least` of them, unless
+/// one is as good as any number.
 pub(crate) fn divide(
     edge: &Edge,
     uses: &[(&Coedge, &Field)],
-    factor: f64,
+    least: usize,
     o: &TessellationOptions,
 ) -> Vec<f64> {
     let knots = match &edge.curve {
@@ -24,20 +25,22 @@ pub(crate) fn divide(
     let (start, end) = edge.curve.domain();
     let breaks = knots.breaks();
     let straight = is_segment(&edge.curve);
-    let (per_span, least) = if straight { (1, 8) } else { (2, 8) };
-    let borders = cells(&breaks, start, end, per_span, least);
+    let per_span = if straight { 1 } else { 2 };
+    let borders = cells(&breaks, start, end, per_span, 8);
     let mut densities: Vec<f64> =
         borders.windows(2).map(|b| density(&edge.curve, 0.5 * (b[0] + b[1]), straight, o)).collect();
     for (coedge, field) in uses {
         bordering(coedge, field, &borders, &mut densities);
     }
     let grading = Grading::new(borders, &densities, |t| is_kink(knots, t));
-    let mut factor = factor;
+    let wanted = least as f64;
+    let mut factor = if grading.total() > 0.0 { (wanted / grading.total()).max(1.0) } else { 1.0 };
+    let most = 4096.0 * factor;
     loop {
         let parameters = grading.divide(factor);
         let worst = if straight { 0.0 } else { worst_chord(&edge.curve, &parameters) };
         // Twice the steps is a quarter of the deviation; 4096 times the steps is beyond any smooth curve.
-        if !(worst > o.sampled_chord()) || factor > 4096.0 {
+        if !(worst > o.sampled_chord()) || factor > most {
             return parameters;
         }
         factor *= (worst / o.sampled_chord()).sqrt().clamp(1.1, 4.0);
@@ -109,7 +112,7 @@ fn distance_to_segment(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 /// Parameter bounds of a chain of parameter curves, sampled; exact for straight ones.
 pub(crate) fn widen(curve: &Curve<DVec2>, low: &mut DVec2, high: &mut DVec2) {
     let (start, end) = curve.domain();
-    let count = if curve.points().len() == 2 { 1 } else { 4 * curve.points().len() };
+    let count = if curve.points().len() == 2 { 1 } else { 2 * curve.points().len() };
     for i in 0..=count {
         let p = curve.point(start + (end - start) * i as f64 / count as f64);
         *low = low.min(p);

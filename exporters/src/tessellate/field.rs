@@ -8,8 +8,9 @@ use glam::DVec2;
 
 /// Share of one step that a flat direction is given, so that twist has something to be measured against.
 const FLOOR: f64 = 0.1;
-/// Longest over shortest side of the metric that triangles are well shaped in.
-const ANISOTROPY: f64 = 4.0;
+/// Longest over shortest side of the metric that triangles are well shaped in. More saves triangles on nearly straight
+/// walls, until the flattest of them tilt.
+const ANISOTROPY: f64 = 10.0;
 
 /// Grid lines of a face and a metric in which its triangles are to be well shaped.
 #[derive(Clone, Debug)]
@@ -20,6 +21,8 @@ pub(crate) struct Field {
     pub(crate) v: Grading,
     /// Factors from parameters to millimetres, stretched where curvature asks for long triangles.
     pub(crate) scale: DVec2,
+    /// Factors on the gradings for grid cells that are no longer than the metric likes.
+    pub(crate) more: DVec2,
 }
 
 /// The fundamental forms at a point.
@@ -121,8 +124,8 @@ impl Field {
         let (kinks_u, kinks_v) = kinks(surface);
         let u = Grading::new(borders_u, &densities(&lines_u, share_u), |t| kinks_u.contains(&t));
         let v = Grading::new(borders_v, &densities(&lines_v, share_v), |t| kinks_v.contains(&t));
-        let scale = metric(low, high, (size_u, size_v), (&u, &v));
-        Self { u, v, scale }
+        let (scale, more) = metric(low, high, (size_u, size_v), (&u, &v));
+        Self { u, v, scale, more }
     }
 }
 
@@ -191,13 +194,19 @@ fn kinks(surface: &SurfaceGeometry) -> (Vec<f64>, Vec<f64>) {
     }
 }
 
-/// Millimetres a parameter, stretched towards the ratio of the steps that curvature asks for.
-fn metric(low: DVec2, high: DVec2, size: (f64, f64), grading: (&Grading, &Grading)) -> DVec2 {
+/// Millimetres a parameter, stretched towards the ratio of the steps that curvature asks for; and how many times more
+/// steps than that each direction needs to keep to that ratio.
+fn metric(low: DVec2, high: DVec2, size: (f64, f64), grading: (&Grading, &Grading)) -> (DVec2, DVec2) {
     let range = high - low;
     let ratio = |size: f64, range: f64| if size > 0.0 && range > 0.0 { size / range } else { 1.0 };
     let lengths = DVec2::new(ratio(size.0, range.x), ratio(size.1, range.y));
     let step = |size: f64, g: &Grading| size / g.total().max(f64::MIN_POSITIVE);
-    let stretch = step(size.1, grading.1) / step(size.0, grading.0);
-    let stretch = if stretch.is_finite() { stretch.clamp(1.0 / ANISOTROPY, ANISOTROPY).sqrt() } else { 1.0 };
-    DVec2::new(lengths.x * stretch, lengths.y / stretch)
+    let wanted = step(size.1, grading.1) / step(size.0, grading.0);
+    if !(wanted > 0.0 && wanted.is_finite()) {
+        return (lengths, DVec2::ONE);
+    }
+    let stretch = wanted.clamp(1.0 / ANISOTROPY, ANISOTROPY);
+    let more = DVec2::new((stretch / wanted).max(1.0), (wanted / stretch).max(1.0));
+    let root = stretch.sqrt();
+    (DVec2::new(lengths.x * root, lengths.y / root), more)
 }

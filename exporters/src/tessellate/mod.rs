@@ -14,7 +14,7 @@ mod patch;
 mod rectangle;
 
 use crate::ExportError;
-use coolinggen_brep::FaceUse;
+use coolinggen_brep::{FaceId, FaceUse};
 use glam::{DVec2, DVec3};
 
 pub use driver::tessellate;
@@ -86,6 +86,8 @@ pub struct Tessellation {
     pub edges: Vec<Vec<u32>>,
     /// One mesh a face.
     pub faces: Vec<FaceMesh>,
+    /// Faces whose triangles do not keep the tolerances: surfaces with kinks or folds that no refinement resolves.
+    pub coarse: Vec<FaceId>,
 }
 
 impl Tessellation {

@@ -97,18 +97,12 @@ pub(crate) fn fill(
 }
 
 fn rows(patch: &mut Patch, surface: &SurfaceGeometry, sides: &Sides, us: &[f64], vs: &[f64]) -> bool {
-    let (plain_u, plain_v) =
-        (sides.bottom.len() == 2 && sides.top.len() == 2, sides.left.len() == 2 && sides.right.len() == 2);
-    if vs.is_empty() && plain_v {
-        zip(patch, &sides.bottom, &sides.top, 0, true);
-        return true;
+    let Sides { bottom, right, top, left } = sides;
+    if vs.is_empty() {
+        return strip(patch, [bottom, top], [left, right], 0);
     }
-    if us.is_empty() && plain_u {
-        zip(patch, &sides.left, &sides.right, 1, false);
-        return true;
-    }
-    if us.is_empty() || vs.is_empty() {
-        return false;
+    if us.is_empty() {
+        return strip(patch, [left, right], [bottom, top], 1);
     }
     let grid: Vec<Vec<u32>> =
         vs.iter().map(|&v| us.iter().map(|&u| patch.push(surface, DVec2::new(u, v))).collect()).collect();
@@ -127,6 +121,27 @@ fn rows(patch: &mut Patch, surface: &SurfaceGeometry, sides: &Sides, us: &[f64],
     zip(patch, &sides.top, &grid[grid.len() - 1], 0, false);
     zip(patch, &sides.left, &column(0), 1, false);
     zip(patch, &sides.right, &column(us.len() - 1), 1, true);
+    true
+}
+
+/// A rectangle that needs no inner nodes: triangles between two `rails` that run along `axis`. Where an end between
+/// them has nodes of its own, the first step of the rails is given to that end. Says no where the rails are too short
+/// for that.
+fn strip(patch: &mut Patch, rails: [&[u32]; 2], ends: [&[u32]; 2], axis: usize) -> bool {
+    let [trim_start, trim_stop] = ends.map(|end| usize::from(end.len() > 2));
+    if rails.iter().any(|r| r.len() < 1 + trim_start + trim_stop) {
+        return false;
+    }
+    let cut = rails.map(|r| &r[trim_start..r.len() - trim_stop]);
+    // Seen along u the second rail lies to the left, seen along v to the right.
+    let left = axis == 0;
+    zip(patch, cut[0], cut[1], axis, left);
+    if trim_start > 0 {
+        zip(patch, ends[0], &rails.map(|r| r[1]), 1 - axis, !left);
+    }
+    if trim_stop > 0 {
+        zip(patch, &rails.map(|r| r[r.len() - 2]), ends[1], 1 - axis, !left);
+    }
     true
 }
 

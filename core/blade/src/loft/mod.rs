@@ -42,10 +42,10 @@ impl Sheet {
         }
     }
 
-    /// Distance of `p` from the sheet, mm.
-    fn miss(&self, p: DVec3) -> f64 {
+    /// Distance of `p` from the sheet, mm; `station` is carried from point to point.
+    fn miss(&self, p: DVec3, station: &mut Option<f64>) -> f64 {
         match self {
-            Self::Stream(s) | Self::Chart(s) => s.level(p).0.abs(),
+            Self::Stream(s) | Self::Chart(s) => s.level_near(p, station).0.abs(),
             Self::Planar { z } => (p.z - z).abs(),
         }
     }
@@ -118,9 +118,9 @@ impl Loft {
         Ok(Self { surface, regions, off_sheet, maps })
     }
 
-    /// Arc length around section `k`, mm.
-    pub(crate) fn length(&self, k: usize) -> f64 {
-        self.maps[k].length()
+    /// Arc length at `u` in section `k`, mm.
+    pub(crate) fn place(&self, k: usize, u: f64) -> f64 {
+        self.maps[k].forward(u)
     }
 
     /// u at arc length `s` of section `k`.
@@ -164,13 +164,14 @@ fn lifted(section: &LoftSection, piece: &Piece, map: &Reparameter, k: usize, u: 
 /// For every span its u-range and the greatest distance of the sections' curves from their sheets.
 fn off_sheet(sections: &[LoftSection], columns: &[Curve<DVec3>]) -> Vec<([f64; 2], f64)> {
     let breaks = columns.first().map_or_else(Vec::new, ParametricCurve::breaks);
-    let miss = |u: f64| {
-        let each = sections.iter().zip(columns);
-        each.map(|(s, c)| s.sheet.miss(c.point(u))).fold(0.0, f64::max)
-    };
-    let spans = breaks.windows(2).map(|w| {
-        let worst = [0.25, 0.5, 0.75].map(|f| miss(w[0] + (w[1] - w[0]) * f));
-        ([w[0], w[1]], worst.into_iter().fold(0.0, f64::max))
-    });
-    spans.collect()
+    let mut off: Vec<_> = breaks.windows(2).map(|w| ([w[0], w[1]], 0.0f64)).collect();
+    for (section, column) in sections.iter().zip(columns) {
+        let mut station = None;
+        for ([a, b], worst) in &mut off {
+            for f in [0.35, 0.65] {
+                *worst = worst.max(section.sheet.miss(column.point(*a + (*b - *a) * f), &mut station));
+            }
+        }
+    }
+    off
 }

@@ -60,23 +60,34 @@ impl Reparameter {
         (t * (a + t * (c2 + t * c3)), (a + t * (2.0 * c2 + t * 3.0 * c3)) / h)
     }
 
-    /// Arc length of the whole.
-    pub(super) fn length(&self) -> f64 {
-        self.lengths[self.lengths.len() - 1]
+    /// Arc length at `u`.
+    pub(super) fn forward(&self, u: f64) -> f64 {
+        let inner = &self.joints[1..self.joints.len() - 1];
+        let k = inner.partition_point(|&j| j <= u);
+        self.lengths[k] + self.within(k, u).0
     }
 
     /// u at arc length `s` from the start of the leading edge.
     pub(super) fn backward(&self, s: f64) -> f64 {
         let k = self.lengths[1..self.lengths.len() - 1].partition_point(|&l| l <= s);
         let (mut low, mut high) = (self.joints[k], self.joints[k + 1]);
+        let (a, b) = (self.lengths[k], self.lengths[k + 1]);
+        let mut u = low + (high - low) * ((s - a) / (b - a)).clamp(0.0, 1.0);
         for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if self.lengths[k] + self.within(k, middle).0 < s {
-                low = middle;
+            let (length, rate) = self.within(k, u);
+            let miss = a + length - s;
+            if miss > 0.0 {
+                high = u;
             } else {
-                high = middle;
+                low = u;
             }
+            let newton = u - miss / rate;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - u).abs() < 1e-12 {
+                break;
+            }
+            u = next;
         }
-        0.5 * (low + high)
+        u
     }
 }

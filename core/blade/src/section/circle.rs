@@ -27,7 +27,8 @@ impl Circle {
         if !(determinant > 1e-14 * (xx + yy) * (xx + yy)) {
             return None;
         }
-        let shift = DVec2::new(right.x * yy - right.y * xy, right.y * xx - right.x * xy) / (2.0 * determinant);
+        let shift =
+            DVec2::new(right.x * yy - right.y * xy, right.y * xx - right.x * xy) / (2.0 * determinant);
         let mut circle =
             Self { center: mean + shift, radius: ((xx + yy) / n + shift.length_squared()).sqrt() };
         for _ in 0..4 {

@@ -24,6 +24,11 @@ pub(super) fn tangent_joint(circle: &Circle, end: f64, sense: f64, side: &[DVec2
     let ahead = ((circle.angle(next) - end) * sense).rem_euclid(std::f64::consts::TAU);
     let gap = circle.point(end).distance(next) / circle.radius;
     let ahead = if ahead > std::f64::consts::PI { 0.0 } else { (0.9 * ahead).min(0.8 * gap) };
+    // The far end matters little: the tangent there of the parabola through the last three points.
+    let [a, b, c] = [side[side.len() - 3], side[side.len() - 2], side[side.len() - 1]];
+    let (h, k) = (a.distance(b), b.distance(c));
+    let (before, last) = ((b - a) / h, (c - b) / k);
+    let far = End::Tangent((last + (last - before) * (k / (h + k))).normalize_or(last));
     let cost = |turned: f64| {
         let angle = end + sense * turned;
         let tangent = DVec2::from_angle(angle).perp() * sense;
@@ -32,25 +37,40 @@ pub(super) fn tangent_joint(circle: &Circle, end: f64, sense: f64, side: &[DVec2
         if points[0].distance(next) < 1e-3 * gap * circle.radius {
             return f64::INFINITY;
         }
-        let chain = chain::open(&points, End::Tangent(tangent), End::Free);
+        let chain = chain::cubic(&points, End::Tangent(tangent), far);
         chain.map_or(f64::INFINITY, |c| chain::unevenness(&c, 3))
     };
-    let steps = 12;
+    let steps = 8;
     let step = (ahead + back) / f64::from(steps);
-    let best = (0..=steps).map(|i| -back + step * f64::from(i)).min_by(|a, b| cost(*a).total_cmp(&cost(*b)));
-    let best = best.unwrap_or(0.0);
-    let (mut low, mut high) = ((best - step).max(-back), (best + step).min(ahead));
-    // Golden section.
+    let tried = (0..=steps).map(|i| -back + step * f64::from(i)).map(|t| (cost(t), t));
+    let best = tried.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |t| t.1);
+    let turned = minimum(cost, (best - step).max(-back), (best + step).min(ahead), 1e-3 * (ahead + back));
+    end + sense * turned
+}
+
+/// Where `cost` is least between `low` and `high`: golden section, finished by the parabola through the last three
+/// values.
+fn minimum(cost: impl Fn(f64) -> f64, mut low: f64, mut high: f64, width: f64) -> f64 {
     let ratio = 0.5 * (5f64.sqrt() - 1.0);
-    for _ in 0..18 {
-        let (a, b) = (high - ratio * (high - low), low + ratio * (high - low));
-        if cost(a) < cost(b) {
-            high = b;
+    let (mut a, mut b) = (high - ratio * (high - low), low + ratio * (high - low));
+    let (mut at_a, mut at_b) = (cost(a), cost(b));
+    while high - low > width {
+        if at_a < at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - ratio * (high - low);
+            at_a = cost(a);
         } else {
-            low = a;
+            (low, a, at_a) = (a, b, at_b);
+            b = low + ratio * (high - low);
+            at_b = cost(b);
         }
     }
-    end + sense * 0.5 * (low + high)
+    let middle = 0.5 * (low + high);
+    let h = 0.5 * (high - low);
+    let [f, g, k] = [low, middle, high].map(&cost);
+    let bend = f - 2.0 * g + k;
+    let shift = if bend > 0.0 { 0.5 * h * (f - k) / bend } else { 0.0 };
+    middle + if shift.abs() <= h { shift } else { 0.0 }
 }
 
 #[cfg(test)]

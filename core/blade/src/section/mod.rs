@@ -1,5 +1,6 @@
 //! Closed section curves: from lists of points to smooth outlines with named parts.
 
+mod builder;
 mod chain;
 mod circle;
 mod joint;

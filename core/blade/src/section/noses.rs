@@ -64,7 +64,8 @@ pub(crate) fn find(ring: &Ring, end: usize, extent: f64, tolerance: f64) -> Nose
         [at] => return Nose::Sharp { at: ring.index(at) },
         [first, .., last] => return Nose::Blunt { first: ring.index(first), last: ring.index(last) },
     }
-    if let Some(arc) = best_arc(ring, around.clone(), tolerance) {
+    // Arcs that are exact but for rounding count in any case.
+    if let Some(arc) = best_arc(ring, around.clone(), tolerance.max(1e-6)) {
         return arc;
     }
     Nose::Smooth { tip: ring.index(most_curved(ring, around, 0.02 * extent)) }

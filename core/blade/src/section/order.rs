@@ -174,7 +174,8 @@ impl<'a> Tour<'a> {
             let (before, first, last, after) =
                 (self.at(i + n - 1), self.at(i), self.at(i + length - 1), self.at(i + length));
             let next = self.at(j + 1);
-            let removed = self.distance(before, first) + self.distance(last, after) - self.distance(before, after);
+            let removed =
+                self.distance(before, first) + self.distance(last, after) - self.distance(before, after);
             let straight = self.distance(b, first) + self.distance(last, next);
             let flipped = self.distance(b, last) + self.distance(first, next);
             let added = straight.min(flipped) - self.distance(b, next);

@@ -27,9 +27,7 @@ impl Ring {
     pub(crate) fn area(&self) -> f64 {
         let n = self.len();
         let base = self.points[0];
-        0.5 * (0..n)
-            .map(|i| (self.points[i] - base).perp_dot(self.points[(i + 1) % n] - base))
-            .sum::<f64>()
+        0.5 * (0..n).map(|i| (self.points[i] - base).perp_dot(self.points[(i + 1) % n] - base)).sum::<f64>()
     }
 
     /// The same ring the other way around.

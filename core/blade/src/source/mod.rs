@@ -16,9 +16,12 @@ use pritchard::PritchardSource;
 use schemars::JsonSchema;
 use sections::SectionsSource;
 use serde::{Deserialize, Serialize};
+use std::path::Path;
 use step::StepSource;
 use surface::SurfaceSource;
-use std::path::Path;
+
+/// Code of faults that say that the blade leaves the contours.
+pub(crate) const OUTSIDE_CONTOURS: &str = "outside_contours";
 
 /// Where the blade comes from. Lengths in mm.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -45,9 +48,23 @@ pub fn build(
 ) -> Result<(StreamSpace, Blade), Vec<Fault>> {
     let space_pointer = Pointer::root().at("space");
     let space = space.space(&space_pointer)?;
-    let blade = source.blade(&space, folder).map_err(|f| f.into_iter().map(|f| f.under("/blade")).collect::<Vec<_>>())?;
+    let blade = source.blade(&space, folder).map_err(|faults| relative_to_design(faults, &space_pointer))?;
     let space = settle(space, &blade, &space_pointer)?;
     Ok((space, blade))
+}
+
+/// Faults of the source with pointers from the design's root. That the blade leaves the contours is blamed on these.
+fn relative_to_design(faults: Vec<Fault>, space: &Pointer) -> Vec<Fault> {
+    let moved = faults.into_iter().map(|f| {
+        if f.code != OUTSIDE_CONTOURS {
+            return f.under("/blade");
+        }
+        let at_space = Fault { pointer: space.to_string(), ..f };
+        at_space.hint("hub and shroud must run past the blade's leading and trailing edge")
+    });
+    let mut moved: Vec<_> = moved.collect();
+    moved.dedup();
+    moved
 }
 
 impl BladeSource {
@@ -105,7 +122,7 @@ fn uncovered(pointer: &Pointer, q: DVec2, s: Option<f64>) -> Fault {
         "the contours do not cover the blade: it reaches x = {:.4} mm, r = {:.4} mm, beyond their {end}",
         q.x, q.y
     );
-    Fault::new(pointer.clone(), "blade_outside_contours", message)
+    Fault::new(pointer.clone(), OUTSIDE_CONTOURS, message)
         .value(q.x)
         .unit("mm")
         .hint("lengthen hub and shroud past the blade's leading and trailing edge")

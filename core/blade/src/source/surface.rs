@@ -38,7 +38,7 @@ impl SurfaceSource {
     /// Makes the blade.
     pub(super) fn blade(&self, space: &StreamSpace) -> Result<Blade, Vec<Fault>> {
         let surface = self.surface()?;
-        closed::blade(&surface, self.edges.as_ref(), space, &Pointer::root())
+        closed::blade(&surface, self.edges.as_ref(), closed::CLOSED, space, &Pointer::root())
     }
 
     fn surface(&self) -> Result<BladeSurface, Vec<Fault>> {
@@ -53,7 +53,8 @@ impl SurfaceSource {
             }
             let key = format!("knots_{name}");
             let read = Knots::new(degree, values.to_vec());
-            read.map_err(|e| faults.push(Fault::new(Pointer::root().at(key), "bad_knots", e.to_string()))).ok()
+            read.map_err(|e| faults.push(Fault::new(Pointer::root().at(key), "bad_knots", e.to_string())))
+                .ok()
         };
         let u = knots(self.degree_u, &self.knots_u, "u");
         let v = knots(self.degree_v, &self.knots_v, "v");
@@ -100,7 +101,9 @@ impl SurfaceSource {
         }
         if net.len() != rows {
             let message = format!("{} rows given, {rows} belong to the knots in u", net.len());
-            faults.push(Fault::new(at, "point_count", message).value(net.len()).min(rows as f64).max(rows as f64));
+            faults.push(
+                Fault::new(at, "point_count", message).value(net.len()).min(rows as f64).max(rows as f64),
+            );
             return Vec::new();
         }
         if let Some(i) = net.iter().position(|row| row.len() != columns) {

@@ -27,7 +27,8 @@ impl Annular {
         let d = net.derivatives(0.5, 0.5);
         let side = if d.u.perp_dot(d.v) < 0.0 { -1.0 } else { 1.0 };
         let stations = net.breaks_u();
-        let spans = stations.windows(2).flat_map(|w| (0..4).map(|k| w[0] + (w[1] - w[0]) * f64::from(k) / 4.0));
+        let spans =
+            stations.windows(2).flat_map(|w| (0..4).map(|k| w[0] + (w[1] - w[0]) * f64::from(k) / 4.0));
         let mut samples = Vec::new();
         for s in spans.chain([1.0]) {
             for v in [0.0, 0.25, 0.5, 0.75, 1.0] {
@@ -106,8 +107,8 @@ impl Annular {
             if !(ds.is_finite() && dv.is_finite()) {
                 return Err(outside);
             }
-            s += ds.max(-0.1).min(0.1);
-            v += dv.max(-0.25).min(0.25);
+            s += ds.clamp(-0.1, 0.1);
+            v += dv.clamp(-0.25, 0.25);
             if !(-0.2..=1.2).contains(&s) || !(-1.0..=2.0).contains(&v) {
                 return Err(outside);
             }
@@ -137,7 +138,8 @@ impl Annular {
             for k in 0..=26 {
                 let v = -BEYOND + (1.0 + 2.0 * BEYOND) * f64::from(k) / 26.0;
                 let (p, along_s, along_v) = self.at(s, v);
-                let folded = !(along_s.perp_dot(along_v) * self.side > 1e-9 * along_s.length() * along_v.length());
+                let folded =
+                    !(along_s.perp_dot(along_v) * self.side > 1e-9 * along_s.length() * along_v.length());
                 if folded || !(p.y > 0.0) {
                     return Some((s, v, p));
                 }

@@ -105,7 +105,7 @@ impl Meridian {
     }
 
     /// Parameter at M.
-    pub(super) fn from_conformal(&self, m: f64) -> f64 {
+    pub(super) fn at_conformal(&self, m: f64) -> f64 {
         match &self.form {
             Form::Straight { direction, length, .. } => {
                 let rise = m * direction.y / (length * self.reference_radius);
@@ -124,7 +124,7 @@ impl Meridian {
     }
 
     /// Parameter at arc length `m`.
-    pub(super) fn from_arc(&self, m: f64) -> f64 {
+    pub(super) fn at_arc(&self, m: f64) -> f64 {
         match &self.form {
             Form::Straight { length, .. } => m / length,
             Form::Curved { arc, .. } => arc.backward(m),
@@ -162,7 +162,9 @@ impl Meridian {
     /// closest of a row of samples.
     pub(super) fn nearest(&self, p: DVec2, hint: Option<f64>) -> f64 {
         match &self.form {
-            Form::Straight { start, direction, .. } => (p - *start).dot(*direction) / direction.length_squared(),
+            Form::Straight { start, direction, .. } => {
+                (p - *start).dot(*direction) / direction.length_squared()
+            }
             Form::Curved { samples, .. } => {
                 let mut s = hint.unwrap_or_else(|| {
                     let mut best = (f64::INFINITY, 0.0);
@@ -181,7 +183,7 @@ impl Meridian {
                     // Beyond the centre of curvature the distance has no minimum near: step as on a line.
                     let newton = bend > 0.25 * speed;
                     let step = gap.dot(d) / if newton { bend } else { speed };
-                    let next = (s - step.max(-BEYOND).min(BEYOND)).max(-BEYOND).min(1.0 + BEYOND);
+                    let next = (s - step.clamp(-BEYOND, BEYOND)).clamp(-BEYOND, 1.0 + BEYOND);
                     let moved = (next - s).abs();
                     s = next;
                     // Convergence is quadratic: the next step would be the square of this one.

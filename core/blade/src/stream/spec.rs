@@ -180,11 +180,9 @@ fn annular(
             p.y,
             100.0 * s
         );
-        return Err(vec![
-            Fault::new(pointer.clone(), code, message).unit("mm").hint(
-                "hub and shroud run the same way, at a distance, and the space is needed 15 % beyond both",
-            ),
-        ]);
+        return Err(vec![Fault::new(pointer.clone(), code, message).unit("mm").hint(
+            "hub and shroud run the same way, at a distance, and the space is needed 15 % beyond both",
+        )]);
     }
     Ok(StreamSpace::Annular(annular))
 }
@@ -206,7 +204,8 @@ impl ContourSpec {
             Self::Spline(spline) => spline.curve(pointer)?,
         };
         let breaks = curve.breaks();
-        let still = breaks.windows(2).flat_map(|w| (0..=8).map(|k| w[0] + (w[1] - w[0]) * f64::from(k) / 8.0));
+        let still =
+            breaks.windows(2).flat_map(|w| (0..=8).map(|k| w[0] + (w[1] - w[0]) * f64::from(k) / 8.0));
         let least = 1e-9 * curve.points()[0].distance(curve.points()[curve.points().len() - 1]);
         if let Some(s) = still.into_iter().find(|&s| !(curve.derivatives(s)[1].length() > least)) {
             let p = curve.point(s);

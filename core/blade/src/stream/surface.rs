@@ -25,7 +25,7 @@ enum Form {
         z: f64,
     },
     Revolved {
-        meridian: Meridian,
+        meridian: Box<Meridian>,
         /// Angle with T = 0, radians.
         reference_angle: f64,
         /// 1 where the shroud lies to the left of the streamline in (x, r), else -1.
@@ -47,7 +47,7 @@ impl StreamSurface {
         side: f64,
     ) -> Result<Self, NurbsError> {
         let geometry = SurfaceGeometry::Revolution(Revolution::new(meridian.clone())?);
-        let meridian = Meridian::new(meridian, reference);
+        let meridian = Box::new(Meridian::new(meridian, reference));
         Ok(Self { v, geometry, form: Form::Revolved { meridian, reference_angle, side } })
     }
 
@@ -68,7 +68,7 @@ impl StreamSurface {
         match &self.form {
             Form::Plane { z } => q.extend(*z),
             Form::Revolved { meridian, reference_angle, .. } => {
-                let p = meridian.point(meridian.from_conformal(q.x));
+                let p = meridian.point(meridian.at_conformal(q.x));
                 lift(p, reference_angle + q.y / meridian.reference_radius)
             }
         }
@@ -80,7 +80,7 @@ impl StreamSurface {
         match &self.form {
             Form::Plane { z } => (q.extend(*z), DVec3::X, DVec3::Y),
             Form::Revolved { meridian, reference_angle, .. } => {
-                let (p, tangent) = meridian.tangent(meridian.from_conformal(q.x));
+                let (p, tangent) = meridian.tangent(meridian.at_conformal(q.x));
                 let (sin, cos) = (reference_angle + q.y / meridian.reference_radius).sin_cos();
                 let scale = p.y / meridian.reference_radius;
                 let point = DVec3::new(p.x, p.y * sin, p.y * cos);
@@ -106,7 +106,7 @@ impl StreamSurface {
         match &self.form {
             Form::Plane { .. } => 1.0,
             Form::Revolved { meridian, .. } => {
-                meridian.point(meridian.from_conformal(q.x)).y / meridian.reference_radius
+                meridian.point(meridian.at_conformal(q.x)).y / meridian.reference_radius
             }
         }
     }
@@ -159,7 +159,7 @@ impl StreamSurface {
         match &self.form {
             Form::Plane { .. } => q,
             Form::Revolved { meridian, reference_angle, .. } => {
-                DVec2::new(reference_angle + q.y / meridian.reference_radius, meridian.from_conformal(q.x))
+                DVec2::new(reference_angle + q.y / meridian.reference_radius, meridian.at_conformal(q.x))
             }
         }
     }
@@ -170,7 +170,7 @@ impl StreamSurface {
         match &self.form {
             Form::Plane { .. } => DVec2::new(m, r_theta),
             Form::Revolved { meridian, reference_angle, .. } => {
-                let s = meridian.from_arc(m);
+                let s = meridian.at_arc(m);
                 let turned = r_theta / meridian.point(s).y - reference_angle;
                 DVec2::new(meridian.conformal(s), turned * meridian.reference_radius)
             }
@@ -182,7 +182,7 @@ impl StreamSurface {
         match &self.form {
             Form::Plane { .. } => (q.x, q.y),
             Form::Revolved { meridian, reference_angle, .. } => {
-                let s = meridian.from_conformal(q.x);
+                let s = meridian.at_conformal(q.x);
                 let angle = reference_angle + q.y / meridian.reference_radius;
                 (meridian.arc(s), meridian.point(s).y * angle)
             }
@@ -194,7 +194,7 @@ impl StreamSurface {
         match &self.form {
             Form::Plane { z } => DVec3::new(m, r_theta, *z),
             Form::Revolved { meridian, .. } => {
-                let p = meridian.point(meridian.from_arc(m));
+                let p = meridian.point(meridian.at_arc(m));
                 lift(p, r_theta / p.y)
             }
         }
@@ -223,7 +223,7 @@ impl StreamSurface {
         match &self.form {
             Form::Plane { .. } => direction.extend(0.0),
             Form::Revolved { meridian, .. } => {
-                let (p, tangent) = meridian.tangent(meridian.from_arc(m));
+                let (p, tangent) = meridian.tangent(meridian.at_arc(m));
                 let theta = r_theta / p.y;
                 let (sin, cos) = theta.sin_cos();
                 // theta = (r theta) / r turns back as r grows along m.

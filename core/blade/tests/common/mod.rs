@@ -1,4 +1,5 @@
 //! Blades for the tests.
+#![allow(unreachable_pub)]
 #![allow(dead_code)]
 
 use coolinggen_blade::{Blade, BladeSource, Fault, SpaceSpec, StreamSpace, build};
@@ -68,7 +69,9 @@ pub fn section(v: f64, n: usize) -> Vec<DVec2> {
     let arc = |from: DVec2, to: DVec2, center: DVec2| {
         let (a, r) = ((from - center).to_angle(), (from - center).length());
         let turn = ((to - center).to_angle() - a).rem_euclid(std::f64::consts::TAU) - std::f64::consts::TAU;
-        (1..14).map(move |i| center + DVec2::from_angle(a + turn * f64::from(i) / 14.0) * r).collect::<Vec<_>>()
+        (1..14)
+            .map(move |i| center + DVec2::from_angle(a + turn * f64::from(i) / 14.0) * r)
+            .collect::<Vec<_>>()
     };
     let (lead, trail) = (at(0.0), at(1.0));
     let mut points = arc(lead.2, lead.1, lead.0);
@@ -76,13 +79,17 @@ pub fn section(v: f64, n: usize) -> Vec<DVec2> {
     points.extend(arc(trail.1, trail.2, trail.0));
     points.extend((0..n).rev().map(|k| side(k).2));
     let middle = at(0.4).0;
-    let lean = DVec2::new(48.0 + v, (v - 0.5) * 58.0 * 12f64.to_radians().tan() + 1.5 * (std::f64::consts::PI * v).sin());
+    let lean = DVec2::new(
+        48.0 + v,
+        (v - 0.5) * 58.0 * 12f64.to_radians().tan() + 1.5 * (std::f64::consts::PI * v).sin(),
+    );
     points.into_iter().map(|p| p - middle + lean).collect()
 }
 
 /// A leaned, twisted rotor in the annulus, sections at `spans`.
 pub fn rotor(spans: &[f64]) -> Value {
-    let sections: Vec<_> = spans.iter().map(|&v| json!({"span": v, "points": listed(&section(v, 60))})).collect();
+    let sections: Vec<_> =
+        spans.iter().map(|&v| json!({"span": v, "points": listed(&section(v, 60))})).collect();
     json!({"space": annulus(), "blade": {"kind": "sections", "sections": sections}})
 }
 

@@ -7,7 +7,9 @@ use coolinggen_blade::StreamSurface;
 use coolinggen_brep::{
     Coedge, EdgeCurve, EdgeId, Face, FaceId, Loop, Model, Style, SurfaceGeometry, VertexId,
 };
-use coolinggen_nurbs::{Curve, Interpolator, NurbsError, ParametricCurve, ParametricSurface, RationalCurve};
+use coolinggen_nurbs::{
+    Curve, Interpolator, Knots, NurbsError, ParametricCurve, ParametricSurface, RationalCurve,
+};
 use glam::{DVec2, DVec3};
 
 /// One patch of a tube: u runs round the tube, v from hub to tip and beyond both.
@@ -166,36 +168,75 @@ pub(super) fn meet(
     (level.abs() < 1e-10).then_some(v)
 }
 
+/// The pace of an edge along a patch: u over a parameter in [0, 1] in which the spans of the patch are about equally
+/// long.
+///
+/// Readers interpolate parameter curves of their own at equal steps of the edge's parameter (OpenCASCADE: some four
+/// a span, spread over the whole edge). The patch's spans are short where its curvature changes fast; at this pace
+/// the steps are, too. Beside a trailing edge of 0.6 mm it takes the reader's error from 2e-6 mm below 1e-8 mm.
+///
+/// The quintic with every fourth break for a control point increases as they do and is much smoother than they are.
+fn pace(breaks: &[f64]) -> Result<Curve<f64>, NurbsError> {
+    const DEGREE: usize = 5;
+    let last = breaks.len() - 1;
+    let knots = Knots::uniform(DEGREE, (last / 4).max(DEGREE + 1))?;
+    let controls = knots.greville().into_iter().map(|g| {
+        let place = g * last as f64;
+        let i = (place as usize).min(last - 1);
+        breaks[i] + (breaks[i + 1] - breaks[i]) * (place - i as f64)
+    });
+    let controls = controls.collect();
+    Curve::new(knots, controls)
+}
+
+/// Parameter at which an increasing curve over [0, 1] has the value `u`: Newton's method between bisection bounds.
+fn inverse(pace: &Curve<f64>, u: f64, guess: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut t = guess;
+    for _ in 0..60 {
+        let [value, slope, _] = pace.derivatives(t);
+        let miss = value - u;
+        *(if miss > 0.0 { &mut high } else { &mut low }) = t;
+        let newton = t - miss / slope;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - t).abs() < 1e-15 {
+            break;
+        }
+        t = next;
+    }
+    t
+}
+
 /// Intersection of a patch with a stream surface, u running over the patch's whole domain: nodes at every knot in u
 /// and between, with the exact slopes at the ends, refined until it lies on both.
 fn crossing(surface: &SurfaceGeometry, stream: &StreamSurface, guess: f64) -> Option<Crossing> {
     let breaks = surface.breaks_u();
+    let pace = pace(&breaks).ok()?;
     for parts in [2, 3, 5, 8, 13] {
-        let mut nodes = Vec::with_capacity(breaks.len() * parts);
-        for pair in breaks.windows(2) {
-            nodes.extend((0..parts).map(|i| pair[0] + (pair[1] - pair[0]) * i as f64 / parts as f64));
+        let count = (breaks.len() - 1) * parts;
+        let mut nodes = vec![0.0];
+        let mut parameters = vec![DVec2::new(breaks[0], meet(surface, breaks[0], guess, stream)?)];
+        for i in 1..=count {
+            let (span, part) = ((i - 1) / parts, (i - 1) % parts + 1);
+            let u = breaks[span] + (breaks[span + 1] - breaks[span]) * part as f64 / parts as f64;
+            let before = (nodes[i - 1], parameters[i - 1]);
+            nodes.push(if i == count { 1.0 } else { inverse(&pace, u, before.0) });
+            parameters.push(DVec2::new(u, meet(surface, u, before.1.y, stream)?));
         }
-        nodes.push(breaks[breaks.len() - 1]);
-        let mut v = guess;
-        let mut parameters = Vec::with_capacity(nodes.len());
-        for &u in &nodes {
-            v = meet(surface, u, v, stream)?;
-            parameters.push(DVec2::new(u, v));
-        }
-        let slope = |p: DVec2| {
+        let slope = |t: f64, p: DVec2| {
             let (point, along_u, along_v) = surface.first_derivatives(p.x, p.y);
             let gradient = stream.level(point).1;
             let v = -gradient.dot(along_u) / gradient.dot(along_v);
-            (DVec2::new(1.0, v), along_u + along_v * v)
+            let speed = pace.derivatives(t)[1];
+            (DVec2::new(1.0, v) * speed, (along_u + along_v * v) * speed)
         };
-        let ((first_2d, first), (last_2d, last)) =
-            (slope(parameters[0]), slope(parameters[parameters.len() - 1]));
+        let ((first_2d, first), (last_2d, last)) = (slope(0.0, parameters[0]), slope(1.0, parameters[count]));
         let points: Vec<DVec3> = parameters.iter().map(|p| surface.point(p.x, p.y)).collect();
         let interpolator = Interpolator::with_slopes(&nodes).ok()?;
         let curve = interpolator.curve_with_slopes(&points, first, last).ok()?;
         let pcurve = interpolator.curve_with_slopes(&parameters, first_2d, last_2d).ok()?;
-        let worst = nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).fold(0.0f64, |worst, u| {
-            let (point, q) = (curve.point(u), pcurve.point(u));
+        let worst = nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).fold(0.0f64, |worst, t| {
+            let (point, q) = (curve.point(t), pcurve.point(t));
             let (on_patch, du, dv) = surface.first_derivatives(q.x, q.y);
             let off_patch = (point - on_patch).dot(du.cross(dv).normalize()).abs();
             let (level, gradient) = stream.level(point);

@@ -13,8 +13,13 @@ pub trait BezierCurve: ParametricCurve<Self::Space> {
     /// Where its points live.
     type Space: VectorSpace;
 
-    /// The pieces between breaks in homogeneous coordinates, with positive weights.
-    fn homogeneous_segments(&self) -> Vec<Curve<Homogeneous<Self::Space>>>;
+    /// The B-spline in homogeneous coordinates, with positive weights.
+    fn homogeneous_form(&self) -> Curve<Homogeneous<Self::Space>>;
+
+    /// The pieces between breaks in homogeneous coordinates.
+    fn homogeneous_segments(&self) -> Vec<Curve<Homogeneous<Self::Space>>> {
+        self.homogeneous_form().bezier_segments()
+    }
 }
 
 /// A surface that is made of Bezier patches, see [`BezierCurve`].
@@ -22,49 +27,54 @@ pub trait BezierSurface: ParametricSurface<Self::Space> {
     /// Where its points live.
     type Space: VectorSpace;
 
-    /// The patches between breaks in homogeneous coordinates, with positive weights, u outermost.
-    fn homogeneous_patches(&self) -> Vec<Surface<Homogeneous<Self::Space>>>;
+    /// The B-spline in homogeneous coordinates, with positive weights.
+    fn homogeneous_form(&self) -> Surface<Homogeneous<Self::Space>>;
+
+    /// The patches between breaks in homogeneous coordinates, u outermost.
+    fn homogeneous_patches(&self) -> Vec<Surface<Homogeneous<Self::Space>>> {
+        self.homogeneous_form().bezier_patches()
+    }
 }
 
 impl<V: VectorSpace> BezierCurve for Curve<V> {
     type Space = V;
-    fn homogeneous_segments(&self) -> Vec<Curve<Homogeneous<V>>> {
-        self.map(|&p| Homogeneous::new(p, 1.0)).bezier_segments()
+    fn homogeneous_form(&self) -> Curve<Homogeneous<V>> {
+        self.map(|&p| Homogeneous::new(p, 1.0))
     }
 }
 
 impl<V: VectorSpace> BezierCurve for RationalCurve<V> {
     type Space = V;
-    fn homogeneous_segments(&self) -> Vec<Curve<Homogeneous<V>>> {
-        self.homogeneous.bezier_segments()
+    fn homogeneous_form(&self) -> Curve<Homogeneous<V>> {
+        self.homogeneous.clone()
     }
 }
 
 impl<C: BezierCurve> BezierCurve for &C {
     type Space = C::Space;
-    fn homogeneous_segments(&self) -> Vec<Curve<Homogeneous<C::Space>>> {
-        (*self).homogeneous_segments()
+    fn homogeneous_form(&self) -> Curve<Homogeneous<C::Space>> {
+        (*self).homogeneous_form()
     }
 }
 
 impl<V: VectorSpace> BezierSurface for Surface<V> {
     type Space = V;
-    fn homogeneous_patches(&self) -> Vec<Surface<Homogeneous<V>>> {
-        self.map(|&p| Homogeneous::new(p, 1.0)).bezier_patches()
+    fn homogeneous_form(&self) -> Surface<Homogeneous<V>> {
+        self.map(|&p| Homogeneous::new(p, 1.0))
     }
 }
 
 impl<V: VectorSpace> BezierSurface for RationalSurface<V> {
     type Space = V;
-    fn homogeneous_patches(&self) -> Vec<Surface<Homogeneous<V>>> {
-        self.homogeneous.bezier_patches()
+    fn homogeneous_form(&self) -> Surface<Homogeneous<V>> {
+        self.homogeneous.clone()
     }
 }
 
 impl<S: BezierSurface> BezierSurface for &S {
     type Space = S::Space;
-    fn homogeneous_patches(&self) -> Vec<Surface<Homogeneous<S::Space>>> {
-        (*self).homogeneous_patches()
+    fn homogeneous_form(&self) -> Surface<Homogeneous<S::Space>> {
+        (*self).homogeneous_form()
     }
 }
 

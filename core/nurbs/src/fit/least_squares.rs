@@ -37,6 +37,10 @@ pub enum ConstraintValue {
     Data(usize),
 }
 
+/// Rounds of correction at most, and the relative correction at which they end.
+const ROUNDS: usize = 12;
+const SETTLED: f64 = 1e-15;
+
 /// A factored least-squares problem: knots, parameters, weights, constraints and smoothing, ready for any number of
 /// right-hand sides.
 ///
@@ -209,7 +213,8 @@ impl LeastSquares {
     /// The best curve for `points` (one a parameter) whose constraints equal `values` (one a constraint).
     ///
     /// # Errors
-    /// [`NurbsError::PointCount`] for a wrong number of either, [`NurbsError::BadPoint`] for one that is not finite.
+    /// [`NurbsError::PointCount`] for a wrong number of either, [`NurbsError::BadPoint`] for one that is not finite,
+    /// [`NurbsError::NoConvergence`] for a problem too ill-conditioned to be solved to nine digits.
     pub fn curve<V: VectorSpace>(&self, points: &[V], values: &[V]) -> Result<Fit<V>, NurbsError> {
         let curve = Curve::new(self.knots.clone(), self.solve(points, values)?)?;
         let (mut sum, mut greatest) = (0.0, 0.0f64);
@@ -264,8 +269,8 @@ impl LeastSquares {
         }
         let n = self.knots.control_count();
         let mut x = vec![V::default(); n];
-        // The first round solves, the others correct.
-        for _ in 0..3 {
+        // The first round solves, the others correct, each by a factor of the squared condition times rounding.
+        for round in 0..ROUNDS {
             let mut gradient = vec![V::default(); n];
             for (i, (first, row)) in self.rows.iter().enumerate() {
                 let model = dot(&(*first, row), &x);
@@ -285,7 +290,18 @@ impl LeastSquares {
                 left.push(rest);
             }
             let step = self.constrained_step(gradient, left);
-            x.iter_mut().zip(step).for_each(|(x, d)| *x = *x + d);
+            x.iter_mut().zip(&step).for_each(|(x, &d)| *x = *x + d);
+            let size = |v: &[V]| v.iter().map(|p| p.inner(p)).sum::<f64>().sqrt();
+            let residual = size(&step) / size(&x).max(f64::MIN_POSITIVE);
+            if residual <= SETTLED && round > 0 {
+                break;
+            }
+            if round + 1 == ROUNDS && !(residual <= 1e-9) {
+                return Err(NurbsError::NoConvergence {
+                    what: "ill-conditioned least-squares fit",
+                    residual,
+                });
+            }
         }
         Ok(x)
     }

@@ -10,11 +10,13 @@ use std::f64::consts::PI;
 
 /// Neighbouring pieces shorter than this part of the size meet at their common point only.
 const SMALLEST: f64 = 1e-7;
+/// Loops within this part of the size are none.
+const LOOP: f64 = 1e-6;
 
 /// All points where a B-spline (rational or not) meets itself at two parameters `s < t`, in the order of `s`, as
 /// [`intersect_curves`](crate::intersect_curves). The seam of a closed curve is no such point.
 ///
-/// Loops smaller than 1e-7 of the size of the coordinates are not seen.
+/// Loops smaller than 1e-6 of the size of the coordinates do not count, nor do both sides of a cusp.
 ///
 /// # Errors
 /// As [`intersect_curves`](crate::intersect_curves).
@@ -22,7 +24,7 @@ pub fn self_intersections<C>(curve: &C) -> Result<Vec<Crossing>, NurbsError>
 where
     C: BezierCurve<Space = DVec2>,
 {
-    own_crossings(&Source::exact(curve))
+    own_crossings(&Source::exact(curve), LOOP)
 }
 
 /// All points where a curve of any kind meets itself: [`self_intersections`] with enclosures that are estimated from
@@ -33,10 +35,11 @@ where
 pub fn self_intersections_parametric(
     curve: &dyn ParametricCurve<DVec2>,
 ) -> Result<Vec<Crossing>, NurbsError> {
-    own_crossings(&Source::adaptive(curve))
+    own_crossings(&Source::adaptive(curve), LOOP)
 }
 
-pub(crate) fn own_crossings(source: &Source<'_>) -> Result<Vec<Crossing>, NurbsError> {
+/// Crossings of a curve with itself, without those of loops within `least_loop` of the size.
+pub(crate) fn own_crossings(source: &Source<'_>, least_loop: f64) -> Result<Vec<Crossing>, NurbsError> {
     let mut search = Search::new(source, source);
     let (start, end) = source.curve().domain();
     let closed = source.point(start).distance(source.point(end)) <= super::TOUCH;
@@ -62,6 +65,15 @@ pub(crate) fn own_crossings(source: &Source<'_>) -> Result<Vec<Crossing>, NurbsE
             (c.s, c.t) = (c.t, c.s);
         }
     }
+    // Around a cusp both sides are closer than what counts as touching.
+    let small = least_loop * search.scale;
+    let stays = |c: &Crossing, from: f64, to: f64| {
+        [0.25, 0.5, 0.75].iter().all(|x| source.point(from + x * (to - from)).distance(c.point) <= small)
+    };
+    search.found.retain(|c| {
+        let around = closed && stays(c, start, c.s) && stays(c, c.t, end);
+        !stays(c, c.s, c.t) && !around
+    });
     Ok(search.merged())
 }
 

@@ -129,7 +129,8 @@ fn cuts<C: BezierCurve<Space = DVec2>>(
     closed: bool,
 ) -> Result<Vec<f64>, NurbsError> {
     let source = Source::adaptive_on(raw, &raw.intervals());
-    let own = own_crossings(&source)?;
+    // Swallowtails may be small; their cusps are cut off.
+    let own = own_crossings(&source, 0.0)?;
     let mut cuts: Vec<f64> = own.iter().flat_map(|c| [c.s, c.t]).collect();
     if !closed {
         let other = OffsetCurve::new(curve, -raw.distance);

@@ -96,9 +96,9 @@ impl<V: VectorSpace, C: ParametricCurve<V>> ArcLength<V, C> {
                 break;
             }
             if off > 0.0 {
-                high = t
+                high = t;
             } else {
-                low = t
+                low = t;
             }
             let newton = t - off / self.speed(t);
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };

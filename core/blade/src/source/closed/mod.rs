@@ -25,26 +25,28 @@ pub struct EdgesSpec {
     pub trailing_edge: [f64; 2],
 }
 
-/// How far apart borders may lie to be one line, mm.
+/// How far apart the borders of a surface given inline may lie to be one line, mm.
 pub(super) const CLOSED: f64 = 1e-4;
 /// How far a point of the surface may move where a needless knot is taken out at the seam, mm.
 const SEAM: f64 = 1e-9;
 /// Kinks and curvature jumps inside regions that are let pass: angle in radians.
 const KINK: f64 = 0.02;
 
-/// Turns a closed surface into a blade: closed in u, from hub to shroud in w, u from the leading edge on. Every step is
+/// Turns a surface whose borders meet within `tolerance` mm into a blade: closed in u, from hub to shroud in w, u from the leading edge on. Every step is
 /// exact up to rounding.
 pub(super) fn blade(
     surface: &BladeSurface,
     edges: Option<&EdgesSpec>,
+    tolerance: f64,
     space: &StreamSpace,
     at: &Pointer,
 ) -> Result<Blade, Vec<Fault>> {
-    let failed =
-        |e: NurbsError| vec![Fault::new(at.clone(), "no_surface", format!("the surface cannot be used: {e}"))];
+    let failed = |e: NurbsError| {
+        vec![Fault::new(at.clone(), "no_surface", format!("the surface cannot be used: {e}"))]
+    };
     let outside = |e: BladeError| vec![Fault::new(at.clone(), "outside_contours", e.to_string()).unit("mm")];
     let surface = surgery::clamped(surface).map_err(failed)?;
-    let (surface, around) = closed_in_u(surface, at)?;
+    let (surface, around) = closed_in_u(surface, tolerance, at)?;
     let surface = surgery::closed_exactly(&surface).map_err(failed)?;
     let surface = along_span(surface, space, at)?;
     let surface = assemble::reaching(surface, space, at)?;
@@ -59,16 +61,14 @@ pub(super) fn blade(
     };
     let mut notes = Vec::new();
     let regions = regions::regions(&joints);
-    let inside = |u: f64, margin: f64| regions.iter().any(|(_, r)| u > r[0] + margin && u < r[1] - margin);
+    let inside = |u: f64| regions.iter().any(|(_, r)| u > r[0] + 1e-7 && u < r[1] - 1e-7);
+    let at_leading = |u: f64| u.min(1.0 - u) < 1e-7 || (u - regions[0].1[1]).abs() < 1e-7;
     let start = joints.leading[0];
     for Crease { u, angle, jump } in creases {
         let along = if joints.reversed { start - u } else { u - start }.rem_euclid(1.0);
-        if !inside(along, 1e-7) {
-            continue;
-        }
-        if angle > KINK {
+        if angle > KINK && (inside(along) || at_leading(along)) {
             let message = format!(
-                "the surface has a kink of {:.1} degrees at u = {u:.6} that is neither end of an edge",
+                "the surface has a kink of {:.1} degrees at u = {u:.6} that is no end of the trailing edge",
                 angle.to_degrees()
             );
             return Err(vec![
@@ -78,6 +78,9 @@ pub(super) fn blade(
                     .unit("deg")
                     .hint("only the trailing edge may have corners"),
             ]);
+        }
+        if !inside(along) {
+            continue;
         }
         notes.push(format!(
             "the curvature changes by {:.0} % at once at u = {along:.4}, inside a region",
@@ -97,16 +100,21 @@ pub(super) fn blade(
 }
 
 /// The surface closed in u over [0, 1], and its former domain around.
-fn closed_in_u(surface: BladeSurface, at: &Pointer) -> Result<(BladeSurface, (f64, f64)), Vec<Fault>> {
+fn closed_in_u(
+    surface: BladeSurface,
+    tolerance: f64,
+    at: &Pointer,
+) -> Result<(BladeSurface, (f64, f64)), Vec<Fault>> {
     let failed = |e: NurbsError| vec![Fault::new(at.clone(), "no_surface", e.to_string())];
     let gaps = [gap(&surface), gap(&surgery::transposed(&surface).map_err(failed)?)];
     let surface = match gaps {
-        [u, _] if u <= CLOSED => surface,
-        [_, v] if v <= CLOSED => surgery::transposed(&surface).map_err(failed)?,
+        [u, _] if u <= tolerance => surface,
+        [_, v] if v <= tolerance => surgery::transposed(&surface).map_err(failed)?,
         [u, v] => {
-            let message = format!("the surface is closed neither in u (gap {u:.3e} mm) nor in v (gap {v:.3e} mm)");
+            let message =
+                format!("the surface is closed neither in u (gap {u:.3e} mm) nor in v (gap {v:.3e} mm)");
             return Err(vec![
-                Fault::new(at.clone(), "not_closed", message).value(u.min(v)).max(CLOSED).unit("mm"),
+                Fault::new(at.clone(), "not_closed", message).value(u.min(v)).max(tolerance).unit("mm"),
             ]);
         }
     };
@@ -177,7 +185,8 @@ fn given(
     for (key, range) in [("leading_edge", edges.leading_edge), ("trailing_edge", edges.trailing_edge)] {
         for (i, t) in range.into_iter().enumerate() {
             if !(t >= around.0 && t <= around.1) {
-                let message = format!("the parameter {t} is outside the surface's {} to {}", around.0, around.1);
+                let message =
+                    format!("the parameter {t} is outside the surface's {} to {}", around.0, around.1);
                 faults.push(
                     Fault::new(at.at("edges").at(key).at(i), "out_of_range", message)
                         .value(t)

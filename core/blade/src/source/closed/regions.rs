@@ -35,6 +35,9 @@ const SAMPLES: usize = 1200;
 const TURN: f64 = 0.1;
 /// Edges without a jump of curvature reach to where the profile has turned by this from the tip, radians.
 const EDGE_TURN: f64 = 1.1;
+/// A jump of curvature that ends an edge, and how far from the tip it may be, radians.
+const EDGE_JUMP: f64 = 0.3;
+const CREASE_TURN: f64 = 1.8;
 
 /// Lines of the closed surface (u in [0, 1]) with a kink or a jump of curvature, seen at `w`; the seam counts as u = 0.
 pub(super) fn creases(surface: &BladeSurface, w: f64) -> Vec<Crease> {
@@ -71,10 +74,11 @@ pub(super) fn find(
     if profile.middle(&noses[0]) > profile.middle(&noses[1]) {
         noses.reverse();
     }
-    let ranges = noses.map(|n| profile.range(&n));
+    let ranges = [&noses[0], &noses[1]].map(|n| profile.range(n, creases));
     let [leading, trailing] = ranges;
-    // Along the ring, the suction side is the longer way.
-    let follows = ring.length(leading.1, trailing.0) >= ring.length(trailing.1, leading.0);
+    // Along the ring, from tip to tip, the suction side is the longer way.
+    let [l, t] = [&noses[0], &noses[1]].map(|nose| profile.tip(nose));
+    let follows = ring.length(l, t) >= ring.length(t, l);
     let snap = |position: usize| snapped(profile.u(position), profile.reach(position), creases);
     let order = |(first, last): (usize, usize)| {
         if follows { [snap(first), snap(last)] } else { [snap(last), snap(first)] }
@@ -137,7 +141,10 @@ impl Profile {
             }
         }
         if kept.len() < 8 {
-            return Err(BladeError::Nurbs(coolinggen_nurbs::NurbsError::PointCount { count: kept.len(), expected: 8 }));
+            return Err(BladeError::Nurbs(coolinggen_nurbs::NurbsError::PointCount {
+                count: kept.len(),
+                expected: 8,
+            }));
         }
         let reversed = kept.area() < 0.0;
         if reversed {
@@ -161,6 +168,17 @@ impl Profile {
         3.0 * gap(at(i - 1), at(i)).max(gap(at(i), at(i + 1)))
     }
 
+    /// Position of the middle of a nose.
+    fn tip(&self, nose: &Nose) -> usize {
+        match nose {
+            Nose::Sharp { at } | Nose::Smooth { tip: at } => *at,
+            Nose::Arc { first, last, .. } | Nose::Blunt { first, last } => {
+                let n = self.ring.len();
+                (first + (last + n - first) % n / 2) % n
+            }
+        }
+    }
+
     /// Position along the flow.
     fn middle(&self, nose: &Nose) -> f64 {
         match nose {
@@ -170,24 +188,32 @@ impl Profile {
         }
     }
 
+    /// From the tip of a nose to where it ends: at a crease with a jump of curvature, or where it has turned enough.
+    fn walk(&self, tip: usize, step: isize, creases: &[Crease]) -> usize {
+        let (mut i, mut turned, mut walked) = (tip as isize, 0.0, 0.0);
+        let most = 0.1 * self.ring.perimeter();
+        let mut smooth_end = None;
+        while turned < CREASE_TURN && walked < most {
+            turned += 0.5 * (self.ring.turn(i) + self.ring.turn(i + step));
+            walked += self.ring.at(i).distance(self.ring.at(i + step));
+            i += step;
+            let position = self.ring.index(i);
+            if creases.iter().any(|c| c.u == self.u(position) && c.jump > EDGE_JUMP) {
+                return position;
+            }
+            if turned >= EDGE_TURN && smooth_end.is_none() {
+                smooth_end = Some(position);
+            }
+        }
+        smooth_end.unwrap_or(self.ring.index(i))
+    }
+
     /// First and last position of a nose.
-    fn range(&self, nose: &Nose) -> (usize, usize) {
+    fn range(&self, nose: &Nose, creases: &[Crease]) -> (usize, usize) {
         match nose {
             Nose::Arc { first, last, .. } | Nose::Blunt { first, last } => (*first, *last),
             Nose::Sharp { at } => (*at, *at),
-            Nose::Smooth { tip } => {
-                let walk = |step: isize| {
-                    let (mut i, mut turned, mut walked) = (*tip as isize, 0.0, 0.0);
-                    let most = 0.1 * self.ring.perimeter();
-                    while turned < EDGE_TURN && walked < most {
-                        turned += 0.5 * (self.ring.turn(i) + self.ring.turn(i + step));
-                        walked += self.ring.at(i).distance(self.ring.at(i + step));
-                        i += step;
-                    }
-                    self.ring.index(i)
-                };
-                (walk(-1), walk(1))
-            }
+            Nose::Smooth { tip } => (self.walk(*tip, -1, creases), self.walk(*tip, 1, creases)),
         }
     }
 }

@@ -127,7 +127,10 @@ pub(in crate::source) fn glued<V: VectorSpace>(nets: &[Surface<V>]) -> Result<Su
 }
 
 /// The net on another domain in u.
-pub(in crate::source) fn rebased<V: VectorSpace>(net: &Surface<V>, u: (f64, f64)) -> Result<Surface<V>, NurbsError> {
+pub(in crate::source) fn rebased<V: VectorSpace>(
+    net: &Surface<V>,
+    u: (f64, f64),
+) -> Result<Surface<V>, NurbsError> {
     Surface::new(rescaled(net.knots_u(), u)?, net.knots_v().clone(), net.points().to_vec())
 }
 

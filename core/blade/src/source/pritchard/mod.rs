@@ -4,8 +4,8 @@
 
 mod section;
 
-use super::assemble;
-use crate::blade::Blade;
+use super::{OUTSIDE_CONTOURS, assemble};
+use crate::blade::{Blade, Region};
 use crate::fault::{Fault, Pointer};
 use crate::law::{Law, LawSpec};
 use crate::loft::{Loft, LoftSection, Sheet};
@@ -84,6 +84,35 @@ struct Laws {
     rest: Vec<Law>,
 }
 
+/// A section and where it stands.
+struct Placed {
+    surface: StreamSurface,
+    drawn: Section,
+    /// Chart coordinates of the stacking point.
+    origin: DVec2,
+    /// The stacking point as drawn.
+    stack: DVec2,
+    factor: f64,
+    /// -1 if turned over.
+    flip: f64,
+}
+
+impl Placed {
+    fn carry(&self, p: DVec2) -> DVec2 {
+        let d = (p - self.stack) * self.factor;
+        self.origin + DVec2::new(d.x, self.flip * d.y)
+    }
+
+    fn carried(&self, points: Vec<DVec2>) -> Vec<DVec2> {
+        points.into_iter().map(|p| self.carry(p)).collect()
+    }
+
+    fn arc(&self, (circle, ends): (Circle, [f64; 2])) -> ArcSpan {
+        let circle = Circle { center: self.carry(circle.center), radius: circle.radius * self.factor };
+        ArcSpan { circle, ends: ends.map(|a| self.flip * a) }
+    }
+}
+
 /// Name, unit and open limits of the laws, in the order in which [`PritchardSource::laws`] lists them.
 const LAWS: [(&str, &str, f64, f64); 11] = [
     ("axial_chord", "mm", 0.0, 1e5),
@@ -114,21 +143,32 @@ impl PritchardSource {
         let laws = self.laws(space)?;
         let linear = matches!(space, StreamSpace::Linear(_));
         let constant = |l: &Law| l.bounds().0 == l.bounds().1;
-        if linear && laws.radius.iter().chain(&laws.rest).all(constant) {
-            let only = self.section(&laws, space, 0.5)?.0;
-            let (mut blade, loft) = assemble::lofted(&[only.clone()], space, &Pointer::root())?;
-            let distance = self.distance(&blade, &loft, &laws, space, 0.5, None)?;
-            blade.fit.greatest_distance_mm = distance;
-            return Ok(blade);
+        let at = Pointer::root();
+        let mut blade = if linear && laws.radius.iter().chain(&laws.rest).all(constant) {
+            let only = self.section(&laws, space, 0.5)?;
+            let (mut blade, loft) = assemble::lofted(&[only], space, &at)?;
+            blade.fit.greatest_distance_mm = self.distance(&blade, &loft, &laws, space, 0.5, 0)?;
+            blade
+        } else {
+            self.lofted(&laws, space, &at)?
+        };
+        for (v, name) in [(0.0, "hub"), (1.0, "shroud")] {
+            let wedge = self.placed(&laws, space, v)?.drawn.exit_half_wedge.to_degrees();
+            blade.fit.notes.push(format!("half of the exit wedge angle at the {name}: {wedge:.3} deg"));
         }
+        Ok(blade)
+    }
+
+    /// The loft of as many sections as it takes to be close between them.
+    fn lofted(&self, laws: &Laws, space: &StreamSpace, at: &Pointer) -> Result<Blade, Vec<Fault>> {
         let mut spans = FEWEST;
         loop {
-            let at = |k: usize, n: usize| k as f64 / n as f64;
+            let v = |k: usize, n: usize| k as f64 / n as f64;
             let mut sections = Vec::new();
             let mut faults = Vec::new();
             for k in 0..=spans {
-                match self.section(&laws, space, at(k, spans)) {
-                    Ok((s, _)) => sections.push(s),
+                match self.section(laws, space, v(k, spans)) {
+                    Ok(s) => sections.push(s),
                     Err(mut more) => faults.append(&mut more),
                 }
             }
@@ -136,11 +176,11 @@ impl PritchardSource {
                 faults.dedup_by(|a, b| a.pointer == b.pointer && a.code == b.code);
                 return Err(faults);
             }
-            let (mut blade, loft) = assemble::lofted(&sections, space, &Pointer::root())?;
+            let (mut blade, loft) = assemble::lofted(&sections, space, at)?;
             let mut worst: f64 = 0.0;
-            for k in 0..2 * spans {
-                let v = at(2 * k + 1, 4 * spans);
-                worst = worst.max(self.distance(&blade, &loft, &laws, space, v, Some((k / 2, spans)))?);
+            for k in 0..spans {
+                let between = v(2 * k + 1, 2 * spans);
+                worst = worst.max(self.distance(&blade, &loft, laws, space, between, k)?);
             }
             if worst <= CLOSE || spans >= MOST {
                 blade.fit.greatest_distance_mm = worst;
@@ -150,8 +190,8 @@ impl PritchardSource {
         }
     }
 
-    /// Greatest distance from the blade of points of the section at `v`; `near` is a lofted section to take start
-    /// values from.
+    /// Greatest distance from the blade of points of the exact suction side at `v`, the most curved part; `k` is a
+    /// lofted section nearby, for start values.
     fn distance(
         &self,
         blade: &Blade,
@@ -159,37 +199,44 @@ impl PritchardSource {
         laws: &Laws,
         space: &StreamSpace,
         v: f64,
-        near: Option<(usize, usize)>,
+        k: usize,
     ) -> Result<f64, Vec<Fault>> {
-        let (section, exact) = self.section(laws, space, v)?;
-        let k = near.map_or(0, |(k, _)| k);
-        let mut worst: f64 = 0.0;
-        let length = section.outline.length();
-        let mut walked = section.outline.pieces[0].length();
+        let placed = self.placed(laws, space, v)?;
+        let exact = placed.carried(placed.drawn.suction(SIDE_POINTS + SIDE_POINTS / 3));
+        let total: f64 = exact.windows(2).map(|w| w[0].distance(w[1])).sum();
+        let Some([from, to]) = blade.range(Region::SuctionSide) else { return Ok(0.0) };
+        let sheet = Sheet::Chart(placed.surface.clone());
+        let (mut worst, mut walked): (f64, f64) = (0.0, 0.0);
+        let (start, end) = (loft.place(k, from), loft.place(k, to));
         for pair in exact.windows(2) {
-            let hint = (loft.u(k, walked / length * loft.length(k)), v);
-            let found = blade.closest(section.sheet.point(pair[0]), hint);
+            let u = loft.u(k, start + (end - start) * walked / total);
+            let found = blade.closest(sheet.point(pair[0]), (u, v));
             worst = worst.max(found.map_or(0.0, |f| f.distance));
             walked += pair[0].distance(pair[1]);
         }
         Ok(worst)
     }
 
-    /// The section at `v`, in the chart of its stream surface, and points of the exact suction side.
-    fn section(
-        &self,
-        laws: &Laws,
-        space: &StreamSpace,
-        v: f64,
-    ) -> Result<(LoftSection, Vec<DVec2>), Vec<Fault>> {
-        let surface = space
-            .surface(v)
-            .map_err(|e| vec![Fault::new("", "outside_contours", e.to_string())])?;
+    /// The section at `v` as an outline in the chart of its stream surface.
+    fn section(&self, laws: &Laws, space: &StreamSpace, v: f64) -> Result<LoftSection, Vec<Fault>> {
+        let placed = self.placed(laws, space, v)?;
+        let (leading, trailing) =
+            (placed.arc(placed.drawn.leading_arc()), placed.arc(placed.drawn.trailing_arc()));
+        let suction = placed.carried(placed.drawn.suction(SIDE_POINTS));
+        let pressure = placed.carried(placed.drawn.pressure(SIDE_POINTS));
+        let outline = Outline::drawn(&leading, &suction, &trailing, &pressure)
+            .map_err(|e| vec![Fault::new("", "no_curve", e.to_string())])?;
+        Ok(LoftSection { w: v, sheet: Sheet::Chart(placed.surface), outline })
+    }
+
+    /// The section at `v` with its place in the chart of its stream surface.
+    fn placed(&self, laws: &Laws, space: &StreamSpace, v: f64) -> Result<Placed, Vec<Fault>> {
+        let surface = space.surface(v).map_err(|e| vec![Fault::new("", OUTSIDE_CONTOURS, e.to_string())])?;
         let value = |k: usize| laws.rest[k].at(v);
         let x = value(9);
         let Some(station) = surface.chart_of_axial(x) else {
             let message = format!("the contours do not reach x = {x} mm at span fraction {v:.3}");
-            return Err(vec![Fault::new("/x", "outside_contours", message).value(x).unit("mm")]);
+            return Err(vec![Fault::new("/x", "out_of_range", message).value(x).unit("mm")]);
         };
         let local = radius_at(&surface, station);
         let radius = laws.radius.as_ref().map_or(local, |law| law.at(v));
@@ -217,23 +264,7 @@ impl PritchardSource {
             }
         };
         let stack = self.stacking_point(&drawn);
-        let flip = if self.mirrored { -1.0 } else { 1.0 };
-        let carry = |p: DVec2| {
-            let d = (p - stack) * factor;
-            origin + DVec2::new(d.x, flip * d.y)
-        };
-        let arc = |(circle, ends): (Circle, [f64; 2])| ArcSpan {
-            circle: Circle { center: carry(circle.center), radius: circle.radius * factor },
-            ends: ends.map(|a| flip * a),
-        };
-        let carried = |points: Vec<DVec2>| points.into_iter().map(carry).collect::<Vec<_>>();
-        let (leading, trailing) = (arc(drawn.leading_arc()), arc(drawn.trailing_arc()));
-        let suction = carried(drawn.suction(SIDE_POINTS));
-        let pressure = carried(drawn.pressure(SIDE_POINTS));
-        let outline = Outline::drawn(&leading, &suction, &trailing, &pressure)
-            .map_err(|e| vec![Fault::new("", "no_curve", e.to_string())])?;
-        let exact = carried(drawn.suction(7 * SIDE_POINTS / 3));
-        Ok((LoftSection { w: v, sheet: Sheet::Chart(surface), outline }, exact))
+        Ok(Placed { surface, drawn, origin, stack, factor, flip: if self.mirrored { -1.0 } else { 1.0 } })
     }
 
     fn stacking_point(&self, section: &Section) -> DVec2 {

@@ -1,6 +1,7 @@
 //! Blades given by points of sections.
 
 mod check;
+mod points;
 mod read;
 
 use super::assemble;
@@ -20,8 +21,9 @@ pub struct SectionsSource {
     /// The sections, in the order of increasing `span` or `z`. One alone makes a prismatic blade (linear cascades
     /// only).
     pub sections: Vec<SectionSpec>,
-    /// How far the blade may leave the points where that makes its curvature even, mm: leading and trailing edges
-    /// given by points of an arc become exact arcs. 0 passes through every point.
+    /// How far the blade may leave the points where that makes its curvature even, mm, 0 to 0.1: leading and trailing
+    /// edges given by points of an arc become exact arcs, and noise of measured or rounded points is smoothed away
+    /// where that pays. 0 passes through every point.
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
 }
@@ -80,8 +82,10 @@ impl SectionsSource {
         let read = read::all(self, space)?;
         let mut sections = Vec::new();
         for (k, (sheet, read)) in sheets.into_iter().zip(&read).enumerate() {
-            let outline = Outline::new(&read.ring, &read.leading, &read.trailing, self.tolerance)
-                .map_err(|e| vec![Fault::new(pointer(k), "no_curve", format!("no curve through the points: {e}"))])?;
+            let outline =
+                Outline::new(&read.ring, &read.noses[0], &read.noses[1], self.tolerance).map_err(|e| {
+                    vec![Fault::new(pointer(k), "no_curve", format!("no curve through the points: {e}"))]
+                })?;
             let w = check::parameter(&sheet, &read.ring.points, space)
                 .map_err(|e| vec![Fault::new(pointer(k), "outside_contours", e.to_string()).unit("mm")])?;
             sections.push(LoftSection { w, sheet, outline });
@@ -91,9 +95,7 @@ impl SectionsSource {
         let odd = sections.iter().position(|s| s.outline.pieces.len() != regions.len());
         if let Some(k) = odd {
             let message = "some sections have a sharp trailing edge, others have none";
-            return Err(vec![
-                Fault::new(pointer(k), "trailing_edge", message).hint("make all of one kind"),
-            ]);
+            return Err(vec![Fault::new(pointer(k), "trailing_edge", message).hint("make all of one kind")]);
         }
         let (mut blade, loft) = assemble::lofted(&sections, space, &Pointer::root().at("sections"))?;
         blade.fit.notes.extend(read.iter().flat_map(|r| r.notes.iter().cloned()));
@@ -110,7 +112,8 @@ impl SectionsSource {
                 blade.fit.points += 1;
                 if found.distance > blade.fit.greatest_distance_mm {
                     blade.fit.greatest_distance_mm = found.distance;
-                    blade.fit.worst_point = read::pointer_of(&self.sections[k], k, read.ring.origins[i]).into();
+                    blade.fit.worst_point =
+                        read::pointer_of(&self.sections[k], k, read.ring.origins[i]).into();
                 }
             }
         }

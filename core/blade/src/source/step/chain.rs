@@ -35,10 +35,10 @@ pub(super) fn ring(patches: &[Patch], tolerance: f64) -> Result<Option<Ring>, Nu
     for start in 0..nets.len().min(MOST_STARTS) {
         // As it is, and with u and v exchanged; the other turns lead to the same rings.
         for turn in [0, 4] {
-            if let Some(ring) = follow(&nets, start, turn, tolerance) {
-                if best.as_ref().is_none_or(|b| ring.area > b.area * (1.0 + 1e-9)) {
-                    best = Some(ring);
-                }
+            let found = follow(&nets, start, turn, tolerance);
+            let larger = |r: &Ring| best.as_ref().is_none_or(|b| r.area > b.area * (1.0 + 1e-9));
+            if let Some(ring) = found.filter(larger) {
+                best = Some(ring);
             }
         }
     }
@@ -70,7 +70,9 @@ fn variants(net: &Net) -> Result<Vec<Turned>, NurbsError> {
         let look = |u: f64, k: usize| turned.point(u, k as f64 / (LOOKS - 1) as f64).project();
         let border = |u: f64| std::array::from_fn(|k| look(u, k));
         let borders = [border(0.0), border(1.0)];
-        let along = |k: usize| (0..8).map(|i| look(i as f64 / 8.0, k).distance(look((i + 1) as f64 / 8.0, k))).sum::<f64>();
+        let along = |k: usize| {
+            (0..8).map(|i| look(i as f64 / 8.0, k).distance(look((i + 1) as f64 / 8.0, k))).sum::<f64>()
+        };
         let height = look(0.5, 0).distance(look(0.5, LOOKS - 1));
         let area = height * along(LOOKS / 2);
         all.push(Turned { net: turned, borders, area });
@@ -79,7 +81,8 @@ fn variants(net: &Net) -> Result<Vec<Turned>, NurbsError> {
 }
 
 fn follow(nets: &[Vec<Turned>], start: usize, turn: usize, tolerance: f64) -> Option<Ring> {
-    let meets = |a: &[DVec3; LOOKS], b: &[DVec3; LOOKS]| a.iter().zip(b).all(|(p, q)| p.distance(*q) <= tolerance);
+    let meets =
+        |a: &[DVec3; LOOKS], b: &[DVec3; LOOKS]| a.iter().zip(b).all(|(p, q)| p.distance(*q) <= tolerance);
     let long = |border: &[DVec3; LOOKS]| border[0].distance(border[LOOKS - 1]) > 10.0 * tolerance;
     let first = &nets[start][turn];
     if !long(&first.borders[0]) {
@@ -95,7 +98,9 @@ fn follow(nets: &[Vec<Turned>], start: usize, turn: usize, tolerance: f64) -> Op
             return Some(Ring { patches, area });
         }
         let unused = (0..nets.len()).filter(|i| path.iter().all(|(used, _)| used != i));
-        let next = unused.flat_map(|i| (0..8).map(move |t| (i, t))).find(|&(i, t)| meets(end, &nets[i][t].borders[0]))?;
+        let next = unused
+            .flat_map(|i| (0..8).map(move |t| (i, t)))
+            .find(|&(i, t)| meets(end, &nets[i][t].borders[0]))?;
         path.push(next);
     }
 }
@@ -105,7 +110,8 @@ fn follow(nets: &[Vec<Turned>], start: usize, turn: usize, tolerance: f64) -> Op
 /// which a border was moved to close a gap, mm.
 pub(super) fn joined(ring: &Ring) -> Result<(Net, f64), NurbsError> {
     let mut nets: Vec<Net> = ring.patches.iter().map(|(_, net)| net.clone()).collect();
-    let degrees = nets.iter().fold((0, 0), |(p, q), n| (p.max(n.knots_u().degree()), q.max(n.knots_v().degree())));
+    let degrees =
+        nets.iter().fold((0, 0), |(p, q), n| (p.max(n.knots_u().degree()), q.max(n.knots_v().degree())));
     for net in &mut nets {
         while net.knots_u().degree() < degrees.0 {
             *net = net.elevated_u()?;

@@ -50,7 +50,8 @@ impl StepSource {
         }
         let text = self.text(folder)?;
         let (surface, notes) = self.surface(&text)?;
-        let mut blade = closed::blade(&surface, self.edges.as_ref(), space, &Pointer::root())?;
+        let mut blade =
+            closed::blade(&surface, self.edges.as_ref(), self.tolerance, space, &Pointer::root())?;
         blade.fit.notes.splice(0..0, notes);
         Ok(blade)
     }
@@ -80,7 +81,9 @@ impl StepSource {
         let file = Exchange::new(text).map_err(|b| fault("bad_step", broken(&b)))?;
         let mut patches = read::patches(&file).map_err(|e| match e {
             ReadError::Broken(b) => fault("bad_step", broken(&b)),
-            ReadError::Surface { id, error } => fault("bad_step", format!("surface #{id} is not valid: {error}")),
+            ReadError::Surface { id, error } => {
+                fault("bad_step", format!("surface #{id} is not valid: {error}"))
+            }
         })?;
         if patches.is_empty() {
             let kinds: Vec<String> = file.surface_kinds().iter().map(|(k, n)| format!("{n} {k}")).collect();
@@ -101,7 +104,8 @@ impl StepSource {
         let members = ring.members();
         let (net, gap) = chain::joined(&ring).map_err(failed)?;
         if gap > 1.01 * self.tolerance {
-            let message = format!("the surfaces join within {gap:.3e} mm only after their knots are made equal");
+            let message =
+                format!("the surfaces join within {gap:.3e} mm only after their knots are made equal");
             return Err(fault("not_closed", message));
         }
         let mut notes = Vec::new();

@@ -19,7 +19,10 @@ pub(super) struct Patch {
 pub(super) enum ReadError {
     Broken(Broken),
     /// A surface that is not valid.
-    Surface { id: u64, error: NurbsError },
+    Surface {
+        id: u64,
+        error: NurbsError,
+    },
 }
 
 impl From<Broken> for ReadError {
@@ -74,7 +77,10 @@ fn surface(
     };
     let knots = |degree: f64, multiplicities: &Value, values: &Value| -> Result<Knots, ReadError> {
         let (Some(m), Some(k)) = (numbers(multiplicities), numbers(values)) else { return Err(malformed()) };
-        if m.len() != k.len() || m.iter().any(|m| !(1.0..=64.0).contains(m)) || !(1.0..=64.0).contains(&degree) {
+        if m.len() != k.len()
+            || m.iter().any(|m| !(1.0..=64.0).contains(m))
+            || !(1.0..=64.0).contains(&degree)
+        {
             return Err(malformed());
         }
         let all = k.iter().zip(m).flat_map(|(&k, m)| std::iter::repeat_n(k, m as usize)).collect();
@@ -97,14 +103,14 @@ fn surface(
             points.push(cartesian(file, *point)? * scale);
         }
     }
-    if let Some(w) = &weights {
-        if w.len() != points.len() || w.iter().any(|w| !(*w > 0.0 && w.is_finite())) {
-            return Err(malformed());
-        }
+    let improper = |w: &Vec<f64>| w.len() != points.len() || w.iter().any(|w| !(*w > 0.0 && w.is_finite()));
+    if weights.as_ref().is_some_and(improper) {
+        return Err(malformed());
     }
     let weight = |i: usize| weights.as_ref().map_or(1.0, |w| w[i]);
     let rational = weights.as_ref().is_some_and(|w| w.iter().any(|x| *x != w[0]));
-    let points = points.iter().enumerate().map(|(i, &p)| Homogeneous::new(p, if rational { weight(i) } else { 1.0 }));
+    let points =
+        points.iter().enumerate().map(|(i, &p)| Homogeneous::new(p, if rational { weight(i) } else { 1.0 }));
     let net = Surface::new(knots_u, knots_v, points.collect());
     Ok((net.map_err(|error| ReadError::Surface { id, error })?, rational))
 }
