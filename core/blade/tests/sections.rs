@@ -275,6 +275,41 @@ fn an_ellipse_has_smooth_edges_at_its_ends() {
 }
 
 #[test]
+fn noise_is_smoothed_within_the_tolerance_and_only_then() {
+    // An ellipse with 1 um of noise.
+    let mut state = 7u64;
+    let mut noise = || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((state >> 11) as f64 / (1u64 << 53) as f64 - 0.5) * 2e-3
+    };
+    let n = 300;
+    let points: Vec<DVec2> = around(n)
+        .iter()
+        .map(|a| {
+            let (s, c) = (a * std::f64::consts::TAU).sin_cos();
+            DVec2::new(20.0 * c + noise(), 6.0 * s + noise())
+        })
+        .collect();
+    let roughness = |tolerance: f64| {
+        let design = json!({"space": linear(), "blade":
+            {"kind": "sections", "sections": [{"points": listed(&points)}], "tolerance": tolerance}});
+        let (_, blade) = built(&design);
+        let distance = blade.fit.greatest_distance_mm;
+        assert!(distance <= tolerance + 2e-4, "{distance}");
+        // Greatest error of the curvature, relative to that at the tips.
+        let errors = around(2000).into_iter().map(|u| {
+            let d = blade.surface.derivatives(u, 0.5);
+            let k = d.u.cross(d.uu).z / d.u.length().powi(3);
+            let (s, c) = (d.point.y / 6.0, d.point.x / 20.0);
+            (k.abs() - 120.0 / (400.0 * s * s + 36.0 * c * c).powf(1.5)).abs() * 1.8
+        });
+        errors.fold(0.0, f64::max)
+    };
+    let (rough, smooth) = (roughness(0.0), roughness(0.005));
+    assert!(rough > 0.5 && smooth < 0.2, "{rough} {smooth}");
+}
+
+#[test]
 fn planar_sections_in_an_annulus_are_cut() {
     let sections: Vec<Value> = [240.0, 262.0, 284.0, 306.0, 328.0]
         .iter()

@@ -188,6 +188,34 @@ fn patches_in_any_orientation_degree_and_order_are_joined() {
     assert!(blade.fit.notes[1].contains("moved"), "{:?}", blade.fit.notes);
 }
 
+/// The C3X vane drawn in build123d 0.13 (OpenCASCADE 8): splines through the table's sides, arcs at the edges, lofted,
+/// converted to NURBS; rational patches among six faces.
+#[test]
+fn a_file_from_opencascade_is_read() {
+    let file = File::new("occ", include_str!("data/c3x_opencascade.step"));
+    let blade = file.built(linear(), json!({})).unwrap();
+    let reference = built(&c3x()).1;
+    assert!(matches!(blade.surface, BladeSurface::Rational(_)));
+    assert_eq!(blade.outward, reference.outward);
+    assert_eq!(blade.regions.len(), 4);
+    let points = c3x_points();
+    for (k, p) in points[..78].iter().enumerate() {
+        let p = p.extend(30.0);
+        let near = around(2000).into_iter().min_by(|a, b| {
+            let d = |u: f64| blade.surface.point(u, 0.4).distance(p);
+            d(*a).total_cmp(&d(*b))
+        });
+        let foot = blade.closest(p, (near.unwrap(), 0.4)).unwrap();
+        assert!(foot.distance < 2.5e-3, "{k} {}", foot.distance);
+    }
+    // Edges end where the arcs do, next to the table's points there.
+    let joints = [67, 0, 28, 39];
+    for ((region, [u, _]), k) in blade.regions.iter().zip(joints) {
+        let p = blade.surface.point(*u, 0.4).truncate();
+        assert!(p.distance(points[k]) < 2.5e-3, "{region:?} {p} {}", points[k]);
+    }
+}
+
 #[test]
 fn refuses_what_is_no_blade() {
     let given = net(&built(&c3x()).1);

@@ -2,10 +2,11 @@
 
 use super::geometry::{CurveEntity, Form, Placement, Point, SurfaceEntity};
 use coolinggen_brep::{EdgeCurve, Face, Model, Revolution, RevolutionKind, Shell, Solid, SurfaceGeometry};
-use coolinggen_nurbs::ParametricCurve;
-use glam::DVec3;
+use coolinggen_nurbs::{Curve, ParametricCurve};
+use glam::{DVec2, DVec3};
 use std::borrow::Cow;
 use std::f64::consts::PI;
+use truck_stepio::out::StepLength;
 use truck_topology::compress::{
     CompressedEdge, CompressedEdgeIndex, CompressedFace, CompressedShell, CompressedSolid,
 };
@@ -56,7 +57,20 @@ fn shell<'a>(model: &'a Model, shell: &Shell) -> StepShell<'a> {
     out
 }
 
-fn curve(curve: &EdgeCurve) -> CurveEntity<'_> {
+/// An upper bound of the number of entities that truck writes for a solid.
+pub(crate) fn entities(solid: &StepSolid<'_>) -> usize {
+    let bounds = |f: &CompressedFace<SurfaceEntity<'_>>| -> usize {
+        f.boundaries.iter().map(|b| 2 + b.len()).sum::<usize>() + 1 + f.surface.step_length()
+    };
+    let shell = |s: &StepShell<'_>| -> usize {
+        let edges = s.edges.iter().map(|e| 1 + e.curve.step_length()).sum::<usize>();
+        2 + s.faces.iter().map(bounds).sum::<usize>() + edges + 2 * s.vertices.len()
+    };
+    1 + solid.boundaries.iter().map(shell).sum::<usize>()
+}
+
+/// The form of an edge's curve.
+pub(crate) fn curve(curve: &EdgeCurve) -> CurveEntity<'_> {
     match curve {
         EdgeCurve::BSpline(c) if c.degree() == 1 && c.points().len() == 2 => {
             CurveEntity::Line(c.points()[0], c.points()[1])
@@ -69,7 +83,7 @@ fn curve(curve: &EdgeCurve) -> CurveEntity<'_> {
 fn surface(face: &Face) -> SurfaceEntity<'_> {
     let same = |form| SurfaceEntity { form, same_normal: true };
     match &face.surface {
-        SurfaceGeometry::BSpline(s) if rather_transposed(s.counts()) => {
+        SurfaceGeometry::BSpline(s) if rather_transposed(face, s.counts()) => {
             SurfaceEntity { form: Form::BSpline(Cow::Owned(s.transposed())), same_normal: false }
         }
         SurfaceGeometry::BSpline(s) => same(Form::BSpline(Cow::Borrowed(s))),
@@ -81,18 +95,25 @@ fn surface(face: &Face) -> SurfaceEntity<'_> {
     }
 }
 
-/// Whether a surface goes out with u and v exchanged, so that most of its spans run in v.
+/// Whether a surface goes out with u and v exchanged, so that most of its spans run in v: where parameter lines bound
+/// the face on all sides.
 ///
 /// OpenCASCADE's fixed rule for volumes (FreeCAD's `Shape.Volume`, build123d's `volume`) takes few points along an edge
 /// that is a parameter line, however many spans the surface has along it. Along the edges of constant v it does not
-/// integrate at all: exchanged, the C3X's suction side is right to 1.3e-6 instead of 3.1e-3.
-fn rather_transposed((u, v): (usize, usize)) -> bool {
-    u > v
+/// integrate at all: exchanged, the C3X's suction side is right to 1.3e-6 instead of 3.1e-3. Faces with curved borders
+/// are right as they are, and less so exchanged.
+fn rather_transposed(face: &Face, (u, v): (usize, usize)) -> bool {
+    const LINE: f64 = 1e-9;
+    let straight = |pcurve: &Curve<DVec2>| {
+        let (first, rest) = (pcurve.points()[0], &pcurve.points()[1..]);
+        rest.iter().all(|p| (p.x - first.x).abs() < LINE) || rest.iter().all(|p| (p.y - first.y).abs() < LINE)
+    };
+    u > v && face.loops.iter().flat_map(|l| &l.coedges).all(|c| straight(&c.pcurve))
 }
 
 /// Angle opposite to the face, where a periodic surface may have its seam: control points bound the parameter
 /// curves.
-fn seam(face: &Face) -> f64 {
+pub(crate) fn seam(face: &Face) -> f64 {
     let angles = face.loops.iter().flat_map(|l| &l.coedges).flat_map(|c| c.pcurve.points()).map(|p| p.x);
     let (low, high) =
         angles.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), a| (low.min(a), high.max(a)));

@@ -5,7 +5,7 @@
 
 use super::text::{List, Real, Ref, Text};
 use coolinggen_nurbs::{Curve, Homogeneous, Knots, RationalCurve, RationalSurface, Surface};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use std::borrow::Cow;
 use std::fmt::{Formatter, Result};
 use truck_stepio::out::{DisplayByStep, StepCurve, StepLength, StepSurface};
@@ -85,21 +85,52 @@ impl DisplayByStep for CurveEntity<'_> {
 }
 
 fn bspline_curve(id: usize, c: &Curve<DVec3>, f: &mut Formatter<'_>) -> Result {
-    let ids = (id + 1..=id + c.points().len()).map(Ref);
-    let (knots, counts) = distinct(c.knots());
+    spline(id, c.knots(), f)?;
+    write_points(id + 1, c.points().iter().copied(), f)
+}
+
+/// A B-spline of any dimension, its control points the entities after it.
+fn spline(id: usize, knots: &Knots, f: &mut Formatter<'_>) -> Result {
+    let ids = (id + 1..=id + knots.control_count()).map(Ref);
+    let (values, counts) = distinct(knots);
     writeln!(
         f,
         "#{id} = B_SPLINE_CURVE_WITH_KNOTS('',{},{},.UNSPECIFIED.,.U.,.U.,{},{},.UNSPECIFIED.);",
-        c.degree(),
+        knots.degree(),
         List(ids),
         List(&counts),
-        List(knots.iter().map(|&k| Real(k)))
-    )?;
-    write_points(id + 1, c.points().iter().copied(), f)
+        List(values.iter().map(|&k| Real(k)))
+    )
 }
 
 fn write_points(first: usize, points: impl Iterator<Item = DVec3>, f: &mut Formatter<'_>) -> Result {
     points.enumerate().try_for_each(|(i, p)| Point(p).fmt(first + i, f))
+}
+
+/// A curve in the parameters of the surface with entity `surface`.
+pub(crate) struct PcurveEntity<'a> {
+    pub(crate) surface: usize,
+    pub(crate) curve: &'a Curve<DVec2>,
+    /// Entity of the two-dimensional context.
+    pub(crate) context: usize,
+}
+
+impl StepLength for PcurveEntity<'_> {
+    fn step_length(&self) -> usize {
+        3 + self.curve.points().len()
+    }
+}
+
+impl DisplayByStep for PcurveEntity<'_> {
+    fn fmt(&self, id: usize, f: &mut Formatter<'_>) -> Result {
+        writeln!(f, "#{id} = PCURVE('',#{},#{});", self.surface, id + 1)?;
+        writeln!(f, "#{} = DEFINITIONAL_REPRESENTATION('',(#{}),#{});", id + 1, id + 2, self.context)?;
+        spline(id + 2, self.curve.knots(), f)?;
+        for (i, p) in self.curve.points().iter().enumerate() {
+            writeln!(f, "#{} = CARTESIAN_POINT('',({},{}));", id + 3 + i, Real(p.x), Real(p.y))?;
+        }
+        Ok(())
+    }
 }
 
 /// Distinct knots and their multiplicities, compared exactly.

@@ -1,10 +1,11 @@
 //! STEP, AP214, through truck's writer.
 //!
-//! truck writes the topology; our geometry prints itself (`geometry`), and a pass over the lines (`rewrite`)
-//! puts in what truck leaves out: names, products, colours, layers and a header that readers accept.
+//! truck writes the topology; our geometry prints itself (`geometry`), and a pass over the lines (`rewrite`) puts in
+//! what truck leaves out: names, parameter curves (`pcurves`), products, colours, layers and a header that readers accept.
 
 mod convert;
 mod geometry;
+mod pcurves;
 mod product;
 mod rewrite;
 mod text;
@@ -12,7 +13,7 @@ mod text;
 use crate::ExportError;
 use crate::select::select;
 use coolinggen_brep::{Model, Style};
-use rewrite::Rewriter;
+use rewrite::{Additions, Rewriter};
 use std::fmt::Write as _;
 use std::io::{self, Write};
 use truck_stepio::out::StepModels;
@@ -30,6 +31,9 @@ pub struct StepOptions {
     pub organisation: String,
     /// Distance below which a reader may take points for the same, mm.
     pub uncertainty_mm: f64,
+    /// Whether edges carry their curves in the parameters of their surfaces. Readers then need not project them, which
+    /// is faster and closer.
+    pub pcurves: bool,
 }
 
 impl Default for StepOptions {
@@ -40,6 +44,7 @@ impl Default for StepOptions {
             author: String::new(),
             organisation: String::new(),
             uncertainty_mm: 1e-7,
+            pcurves: true,
         }
     }
 }
@@ -69,7 +74,10 @@ pub fn write_step(
     product::preamble(options, out)?;
     let converted: Vec<convert::StepSolid<'_>> = chosen.iter().map(|s| convert::solid(model, s)).collect();
     let models: StepModels<'_, _, _, _> = converted.iter().collect();
-    let mut rewriter = Rewriter::new(out, &names, &face_names);
+    let pcurves = if options.pcurves { pcurves::of_all(model, &chosen, &converted) } else { Vec::new() };
+    let next = rewrite::FIRST_ENTITY + converted.iter().map(convert::entities).sum::<usize>();
+    let additions = Additions { solids: &names, faces: &face_names, pcurves: &pcurves, next };
+    let mut rewriter = Rewriter::new(out, additions);
     if write!(rewriter, "{models}").is_err() {
         let error = rewriter.error.take();
         return Err(error.unwrap_or_else(|| io::Error::other("the STEP writer failed")).into());

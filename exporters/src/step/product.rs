@@ -10,6 +10,9 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 use truck_stepio::out::StepDisplay;
 
+/// Entity of the context of parameter curves.
+pub(crate) const PARAMETER_CONTEXT: usize = 10;
+
 /// Header and the entities before the geometry: contexts, units, uncertainty.
 pub(crate) fn preamble(options: &StepOptions, out: &mut impl Write) -> io::Result<()> {
     write!(
@@ -25,6 +28,8 @@ DATA;
 #2 = APPLICATION_CONTEXT('core data for automotive mechanical design processes');
 #8 = PRODUCT_CONTEXT('',#2,'mechanical');
 #9 = PRODUCT_DEFINITION_CONTEXT('part definition',#2,'design');
+#10 = (GEOMETRIC_REPRESENTATION_CONTEXT(2) PARAMETRIC_REPRESENTATION_CONTEXT() \
+REPRESENTATION_CONTEXT('','parameters'));
 #11 = (GEOMETRIC_REPRESENTATION_CONTEXT(3) GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#15)) \
 GLOBAL_UNIT_ASSIGNED_CONTEXT((#12,#13,#14)) REPRESENTATION_CONTEXT('','3D'));
 #12 = (LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.));
@@ -63,7 +68,7 @@ pub(crate) fn closing(
     written: &Written,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let mut entities = Entities { out, next: written.last + 1 };
+    let mut entities = Entities { out, next: written.next };
     products(names, written, &mut entities)?;
     colours(styles, written, &mut entities)?;
     layers(styles, written, &mut entities)?;

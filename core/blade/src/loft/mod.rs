@@ -72,6 +72,8 @@ pub(crate) struct Loft {
 
 /// How far section curves may leave their sheets between nodes, mm: what readers of STEP files accept of edges.
 const OFF_SHEET: f64 = 3e-8;
+/// How far they may leave the outlines drawn through the points, mm.
+const OFF_OUTLINE: f64 = 5e-5;
 /// Spans around the blade that refinement stops at, and rounds of it.
 const MOST_SPANS: usize = 400;
 const ROUNDS: usize = 4;
@@ -100,13 +102,13 @@ impl Loft {
                 .zip(&maps)
                 .map(|(s, map)| column(s, map, &nodes))
                 .collect::<Result<Vec<_>, _>>()?;
-            let off = off_sheet(sections, &columns);
-            let worst = off.iter().map(|(_, miss)| *miss).fold(0.0, f64::max);
-            best = Some((columns, worst));
-            if worst <= OFF_SHEET || off.len() >= MOST_SPANS {
+            let spans = judged(sections, &maps, &columns, &joints);
+            let off = spans.iter().map(|s| s.off_sheet).fold(0.0, f64::max);
+            best = Some((columns, off));
+            if spans.iter().all(|s| s.excess() <= 1.0) || spans.len() >= MOST_SPANS {
                 break;
             }
-            grid.refine(&off);
+            grid.refine(&spans);
         }
         let Some((columns, off_sheet)) = best else {
             return Err(NurbsError::NotFound { what: "nodes around the blade" });
@@ -161,17 +163,48 @@ fn lifted(section: &LoftSection, piece: &Piece, map: &Reparameter, k: usize, u: 
     (section.sheet.point(q), section.sheet.direction(q, tangent) * rate)
 }
 
-/// For every span its u-range and the greatest distance of the sections' curves from their sheets.
-fn off_sheet(sections: &[LoftSection], columns: &[Curve<DVec3>]) -> Vec<([f64; 2], f64)> {
+/// A span of the section curves, with the greatest errors of all of them in it, mm.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    u: [f64; 2],
+    /// Distance from the sheet.
+    off_sheet: f64,
+    /// Distance from the outline.
+    off_outline: f64,
+}
+
+impl Span {
+    /// The errors over what they may be, the greater one.
+    fn excess(&self) -> f64 {
+        (self.off_sheet / OFF_SHEET).max(self.off_outline / OFF_OUTLINE)
+    }
+}
+
+/// Judges the section curves between their nodes.
+fn judged(
+    sections: &[LoftSection],
+    maps: &[Reparameter],
+    columns: &[Curve<DVec3>],
+    joints: &[f64],
+) -> Vec<Span> {
     let breaks = columns.first().map_or_else(Vec::new, ParametricCurve::breaks);
-    let mut off: Vec<_> = breaks.windows(2).map(|w| ([w[0], w[1]], 0.0f64)).collect();
-    for (section, column) in sections.iter().zip(columns) {
+    let span = |w: &[f64]| Span { u: [w[0], w[1]], off_sheet: 0.0, off_outline: 0.0 };
+    let mut spans: Vec<Span> = breaks.windows(2).map(span).collect();
+    for ((section, map), column) in sections.iter().zip(maps).zip(columns) {
         let mut station = None;
-        for ([a, b], worst) in &mut off {
+        for span in &mut spans {
+            let [a, b] = span.u;
             for f in [0.35, 0.65] {
-                *worst = worst.max(section.sheet.miss(column.point(*a + (*b - *a) * f), &mut station));
+                let p = column.point(a + (b - a) * f);
+                span.off_sheet = span.off_sheet.max(section.sheet.miss(p, &mut station));
             }
+            let middle = 0.5 * (a + b);
+            let k = joints[1..joints.len() - 1].partition_point(|&j| j <= middle);
+            let (exact, along) = lifted(section, &section.outline.pieces[k], map, k, middle);
+            // Along the curve the difference is one of speed only.
+            let apart = (column.point(middle) - exact).reject_from(along).length();
+            span.off_outline = span.off_outline.max(apart);
         }
     }
-    off
+    spans
 }

@@ -1,7 +1,7 @@
 //! Where the nodes of the surface stand around the blade.
 
 use super::reparameter::Reparameter;
-use super::{LoftSection, Sheet};
+use super::{LoftSection, Sheet, Span};
 
 /// Cells a region is judged by.
 const CELLS: usize = 240;
@@ -36,14 +36,12 @@ impl Grid {
         grid
     }
 
-    /// Asks for more where spans, given by their u-range, lie too far off their sheets.
-    pub(super) fn refine(&mut self, off: &[([f64; 2], f64)]) {
-        for &([a, b], miss) in off {
-            if miss <= super::OFF_SHEET {
-                continue;
-            }
+    /// Asks for more where spans leave their sheets or outlines too far.
+    pub(super) fn refine(&mut self, spans: &[Span]) {
+        for span in spans.iter().filter(|s| s.excess() > 1.0) {
+            let [a, b] = span.u;
             // A jump in the third derivative, which the data may have, shows with the third power of the spacing.
-            let factor = 0.85 * (super::OFF_SHEET / miss).cbrt();
+            let factor = 0.85 / span.excess().cbrt();
             for i in 0..self.wanted.len() {
                 let (low, high) = self.cell(i);
                 if low <= b && high >= a {

@@ -105,9 +105,12 @@ fn even(
     };
     let start = NONE * spacing.powi(5);
     let (through, _, jerk_through) = fit(start)?;
-    // The most smoothing that stays within the tolerance, half of which is left to what follows: coarse steps, halved
+    if !(tolerance > 0.0) {
+        return Ok(through);
+    }
+    // The most smoothing that stays within the tolerance, a tenth of which is left to what follows: coarse steps, smaller
     // where they went too far. Clean data are seen early: the curve leaves them and is hardly smoother.
-    let smoothed = |factor: f64| fit(factor).ok().filter(|(_, greatest, _)| *greatest <= 0.5 * tolerance);
+    let smoothed = |factor: f64| fit(factor).ok().filter(|(_, greatest, _)| *greatest <= 0.9 * tolerance);
     let (mut most, mut step) = (None, COARSE);
     let mut factor = start * COARSE;
     for _ in 0..24 {
@@ -128,9 +131,11 @@ fn even(
         }
         factor *= step;
     }
-    let Some((most, least)) = most.filter(|(_, jerk)| *jerk < PAYS * jerk_through) else { return Ok(through) };
+    let Some((most, least)) = most.filter(|(_, jerk)| *jerk < PAYS * jerk_through) else {
+        return Ok(through);
+    };
     // The least smoothing that does nearly as well: noise goes first, shape last.
-    let enough = 1.5 * least;
+    let enough = 1.2 * least;
     let mut best = most;
     while best > start && smoothed(best / FINE).is_some_and(|(_, _, jerk)| jerk <= enough) {
         best /= FINE;

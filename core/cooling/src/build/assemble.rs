@@ -1,6 +1,7 @@
 //! Solids from faces: the metal, and a coolant solid for every passage.
 
 use super::cap::{Ring, add_cap, points_up};
+use super::clearance;
 use super::error::BuildError;
 use super::passages::{Passage, add_chambers};
 use super::radial_holes::{RadialHoleGeometry, patches, place};
@@ -38,13 +39,16 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let mut radial_holes = Vec::new();
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
         let grid = Grid::new(blade)?;
-        passages = add_chambers(&mut model, blade, space, &grid, plan)?;
+        let polygons;
+        (passages, polygons) = add_chambers(&mut model, blade, space, &grid, plan)?;
         if !plan.radial_holes.is_empty() {
             let sections = [Section::new(blade, space, &grid, 0.0)?, Section::new(blade, space, &grid, 1.0)?];
             for hole in &plan.radial_holes {
-                let geometry = place(blade, [&sections[0], &sections[1]], hole)?;
-                let CutTube { faces, rings } =
-                    add_tube(&mut model, patches(&geometry, &hole.diameter)?, [&ends[0], &ends[1]])?;
+                radial_holes.push(place(blade, [&sections[0], &sections[1]], hole)?);
+            }
+            clearance::check(blade, &radial_holes, &polygons)?;
+            for hole in &radial_holes {
+                let CutTube { faces, rings } = add_tube(&mut model, patches(hole)?, [&ends[0], &ends[1]])?;
                 let path = format!("radial_hole/{}", hole.name);
                 passages.push(Passage {
                     name: hole.name.clone(),
@@ -54,7 +58,6 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
                     outward: true,
                     span: [0.0, 1.0],
                 });
-                radial_holes.push(geometry);
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Chambers: rings of eight segments lofted over the span (DESIGN 5.3).
 
 use super::cap::Ring;
+use super::clearance::ChamberPolygon;
 use super::error::BuildError;
 use super::style;
 use crate::section::{ChamberRing, Outline, SEGMENTS};
@@ -23,6 +24,18 @@ impl RingSection<'_> {
         let (q, dq) = self.ring.segments[k].evaluate(self.outline, t);
         let (point, dm, dt) = self.stream.to_space_derivatives(q);
         (point, dm * dq.x + dt * dq.y)
+    }
+
+    /// The ring in the chart, coarsely.
+    pub(super) fn polygon(&self, chamber: &str) -> ChamberPolygon {
+        const STEPS: usize = 12;
+        let segments = self.ring.segments.iter();
+        let points = segments.flat_map(|s| (0..STEPS).map(move |i| (s, i as f64 / STEPS as f64)));
+        ChamberPolygon {
+            chamber: chamber.to_owned(),
+            stream: self.stream.clone(),
+            points: points.map(|(s, t)| s.evaluate(self.outline, t).0).collect(),
+        }
     }
 }
 

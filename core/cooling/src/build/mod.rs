@@ -4,8 +4,10 @@ mod assemble;
 mod bitangent;
 mod cap;
 mod chambers;
+mod clearance;
 mod error;
 mod passages;
+mod probe;
 mod radial_holes;
 mod sections;
 mod shell;
@@ -14,4 +16,5 @@ mod tube;
 
 pub use assemble::{CooledBlade, build};
 pub use error::BuildError;
+pub(crate) use probe::Probe;
 pub use radial_holes::RadialHoleGeometry;

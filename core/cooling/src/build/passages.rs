@@ -2,6 +2,7 @@
 
 use super::cap::Ring;
 use super::chambers::{RingSection, add_chamber, segment_names};
+use super::clearance::ChamberPolygon;
 use super::error::BuildError;
 use super::sections::{Grid, Section, WallLine, span_fractions, wall_lines};
 use super::shell::{EndRadii, OffsetSection, offset_section};
@@ -26,16 +27,16 @@ pub(super) struct Passage {
     pub(super) span: [f64; 2],
 }
 
-/// Builds all chambers and adds their faces to the model.
+/// Builds all chambers and adds their faces to the model; answers with their rings as polygons, too.
 pub(super) fn add_chambers(
     model: &mut Model,
     blade: &Blade,
     space: &StreamSpace,
     grid: &Grid,
     plan: &Plan,
-) -> Result<Vec<Passage>, BuildError> {
+) -> Result<(Vec<Passage>, Vec<ChamberPolygon>), BuildError> {
     let Some(shell) = plan.shell.as_ref().filter(|_| !plan.chambers.is_empty()) else {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), Vec::new()));
     };
     let spans = spans(blade, space, grid, plan, shell)?;
     let fractions = span_fractions(&spans);
@@ -60,6 +61,7 @@ pub(super) fn add_chambers(
     }
     let natural = natural_nose(grid, &sections, &offsets, plan, spans[0]);
     let mut passages = Vec::new();
+    let mut polygons = Vec::new();
     for (k, (chamber, span)) in plan.chambers.iter().zip(&spans).enumerate() {
         let pointer = format!("/cooling/chambers/{k}");
         let mut rings = Vec::new();
@@ -107,6 +109,7 @@ pub(super) fn add_chambers(
             let front = if k == 0 { "leading_edge".to_owned() } else { wall_name(k - 1) };
             let back = if k + 1 == plan.chambers.len() { "trailing_edge".to_owned() } else { wall_name(k) };
             let names = segment_names(&chamber.name, &front, &back);
+            polygons.extend(rings.iter().map(|ring| ring.polygon(&chamber.name)));
             let faces = add_chamber(model, &chamber.name, names, &rings)?;
             passages.push(Passage {
                 name: chamber.name.clone(),
@@ -119,7 +122,11 @@ pub(super) fn add_chambers(
             });
         }
     }
-    if refusals.is_empty() { Ok(passages) } else { Err(BuildError::Refused(worst_by_pointer(refusals))) }
+    if refusals.is_empty() {
+        Ok((passages, polygons))
+    } else {
+        Err(BuildError::Refused(worst_by_pointer(refusals)))
+    }
 }
 
 /// The parameter to blame for a chamber's refusal.

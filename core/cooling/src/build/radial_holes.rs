@@ -23,6 +23,14 @@ pub struct RadialHoleGeometry {
     pub tip: DVec3,
     /// Diameter at the hub and at the tip, mm.
     pub diameters: [f64; 2],
+    law: Law,
+}
+
+impl RadialHoleGeometry {
+    /// Diameter at a fraction of the axis from hub to tip, mm.
+    pub fn diameter(&self, fraction: f64) -> f64 {
+        self.law.at(fraction)
+    }
 }
 
 /// Where the hole's axis meets hub and tip.
@@ -53,7 +61,13 @@ pub(super) fn place(
         *point = section.stream.to_space(q);
     }
     let diameters = [hole.diameter.at(0.0), hole.diameter.at(1.0)];
-    Ok(RadialHoleGeometry { name: hole.name.clone(), hub: points[0], tip: points[1], diameters })
+    Ok(RadialHoleGeometry {
+        name: hole.name.clone(),
+        hub: points[0],
+        tip: points[1],
+        diameters,
+        law: hole.diameter.clone(),
+    })
 }
 
 /// Spans round half a circle: the cubic lies within `(pi / 48)^4 / 384` = 5e-8 radii of it.
@@ -62,14 +76,14 @@ const SPANS: usize = 48;
 const STATIONS: usize = 12;
 
 /// The two half faces of the hole, reaching beyond hub and tip; their natural normals point away from the axis.
-pub(super) fn patches(hole: &RadialHoleGeometry, diameter: &Law) -> Result<Vec<Patch>, BuildError> {
+pub(super) fn patches(hole: &RadialHoleGeometry) -> Result<Vec<Patch>, BuildError> {
     let length = hole.hub.distance(hole.tip);
     let axis = (hole.tip - hole.hub) / length;
     let e1 = axis.any_orthonormal_vector();
     let e2 = axis.cross(e1);
     // Far enough beyond the ends to be cut off by surfaces inclined up to 60 degrees to the axis.
     let beyond = hole.diameters[0].max(hole.diameters[1]) + 0.02 * length;
-    let (knots_v, stations) = stations(diameter, length, beyond)?;
+    let (knots_v, stations) = stations(&hole.law, length, beyond)?;
     let style = style::radial_hole();
     let mut patches = Vec::new();
     for (half, part) in [(0.0, "a"), (1.0, "b")] {

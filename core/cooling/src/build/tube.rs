@@ -211,11 +211,16 @@ fn inverse(pace: &Curve<f64>, u: f64, guess: f64) -> f64 {
 /// and between, with the exact slopes at the ends, refined until it lies on both.
 fn crossing(surface: &SurfaceGeometry, stream: &StreamSurface, guess: f64) -> Option<Crossing> {
     let breaks = surface.breaks_u();
-    let pace = pace(&breaks).ok()?;
+    // Where a line of constant v crosses, readers take the straight parameter line, which needs no pace.
+    let level_v = meet(surface, breaks[0], guess, stream)?;
+    let level_at = |u: f64| stream.level(surface.point(u, level_v)).0.abs();
+    let straight = breaks.iter().all(|&u| level_at(u) < 1e-11);
+    let pace =
+        if straight { Curve::segment(breaks[0], breaks[breaks.len() - 1]) } else { pace(&breaks).ok()? };
     for parts in [2, 3, 5, 8, 13] {
         let count = (breaks.len() - 1) * parts;
         let mut nodes = vec![0.0];
-        let mut parameters = vec![DVec2::new(breaks[0], meet(surface, breaks[0], guess, stream)?)];
+        let mut parameters = vec![DVec2::new(breaks[0], level_v)];
         for i in 1..=count {
             let (span, part) = ((i - 1) / parts, (i - 1) % parts + 1);
             let u = breaks[span] + (breaks[span + 1] - breaks[span]) * part as f64 / parts as f64;

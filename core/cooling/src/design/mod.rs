@@ -11,6 +11,7 @@ pub use chambers::{Chamber, Shell, Wall};
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, schema_faults};
 
+use crate::plan::Plan;
 use coolinggen_blade::{BladeSource, Fault, SpaceSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -80,8 +81,14 @@ impl Design {
             let message = format!("not JSON: {e}");
             vec![Fault::new("", "syntax", message).hint("numbers such as NaN and comments are not JSON")]
         })?;
-        let faults = schema_faults(&value);
+        let mut faults = schema_faults(&value);
         if !faults.is_empty() {
+            // What is of the right types may be wrong in other ways, too: say so at once.
+            if let Ok(design) = serde_json::from_value::<Self>(value) {
+                let known: Vec<String> = faults.iter().map(|f| f.pointer.clone()).collect();
+                let more = design.cooling.as_ref().and_then(|c| Plan::new(c).err()).unwrap_or_default();
+                faults.extend(more.into_iter().filter(|f| !known.iter().any(|k| f.pointer.starts_with(k))));
+            }
             return Err(faults);
         }
         serde_json::from_value(value).map_err(|e| {

@@ -38,6 +38,10 @@ fn default_tolerance() -> f64 {
     1e-3
 }
 
+/// What to do about files that draw parts of a blade as cylinders, extrusions and the like.
+const AS_NURBS: &str =
+    "all faces around the blade must be B-spline surfaces: convert the shape to NURBS before the export";
+
 const MOST_BYTES: u64 = 500_000_000;
 
 impl StepSource {
@@ -88,7 +92,8 @@ impl StepSource {
         if patches.is_empty() {
             let kinds: Vec<String> = file.surface_kinds().iter().map(|(k, n)| format!("{n} {k}")).collect();
             let instead = if kinds.is_empty() { "no surface at all".to_owned() } else { kinds.join(", ") };
-            return Err(fault("no_surface", format!("the file has no B-spline surface; it has {instead}")));
+            let faults = fault("no_surface", format!("the file has no B-spline surface; it has {instead}"));
+            return Err(faults.into_iter().map(|f| f.hint(AS_NURBS)).collect());
         }
         if let Some(names) = &self.faces {
             self.pick(names, &mut patches)?;
@@ -99,7 +104,7 @@ impl StepSource {
                 patches.len(),
                 self.tolerance
             );
-            fault("not_closed", message)
+            fault("not_closed", message).into_iter().map(|f| f.hint(AS_NURBS)).collect::<Vec<_>>()
         })?;
         let members = ring.members();
         let (net, gap) = chain::joined(&ring).map_err(failed)?;

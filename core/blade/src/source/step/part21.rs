@@ -84,12 +84,12 @@ impl<'a> Exchange<'a> {
         records(body).ok_or(Broken::Malformed { id })
     }
 
-    /// How many instances of each keyword ending in `SURFACE` or `PLANE` there are: what a file has instead.
+    /// How many instances of each kind of elementary or swept surface there are: what a file has instead.
     pub(super) fn surface_kinds(&self) -> BTreeMap<&'a str, usize> {
         let mut kinds = BTreeMap::new();
         for body in self.instances.values() {
             let keyword = body.split('(').next().unwrap_or("").trim();
-            if keyword.ends_with("_SURFACE") || keyword == "PLANE" {
+            if keyword.ends_with("_SURFACE") || keyword.starts_with("SURFACE_OF_") || keyword == "PLANE" {
                 *kinds.entry(keyword).or_insert(0) += 1;
             }
         }
