@@ -387,3 +387,39 @@ fn refuses_bad_sections_with_all_faults_at_once() {
         json!({"kind": "annular", "hub": [[-30, 250], [20, 251]], "shroud": [[-30, 305], [20, 306]]});
     assert_eq!(refused(&rotor)[0], ("/space".to_owned(), "outside_contours"));
 }
+
+#[test]
+fn a_radial_machine_works_like_an_axial_one() {
+    // The flow turns from radially inward to axial: two quarter circles.
+    let arc = |radius: f64| -> Vec<[f64; 2]> {
+        let angle = |i: u32| f64::from(i) / 10.0 * std::f64::consts::FRAC_PI_2;
+        (0..=10).map(|i| [60.0 - radius * angle(i).cos(), 90.0 - radius * angle(i).sin()]).collect()
+    };
+    let sections: Vec<Value> = [0.0, 0.25, 0.5, 0.75, 1.0]
+        .iter()
+        .map(|v| {
+            let length = (60.0 - 35.0 * v) * std::f64::consts::FRAC_PI_2;
+            let points: Vec<DVec2> = around(100)
+                .iter()
+                .map(|a| {
+                    let (s, c) = (a * std::f64::consts::TAU).sin_cos();
+                    DVec2::new(length * (0.5 - 0.3 * c), 4.0 * s + 6.0 * c + 2.0 * v)
+                })
+                .collect();
+            json!({"span": v, "points": listed(&points)})
+        })
+        .collect();
+    let design = json!({"space": {"kind": "annular", "hub": arc(60.0), "shroud": arc(25.0)},
+        "blade": {"kind": "sections", "sections": sections}});
+    let (space, blade) = built(&design);
+    check_shape(&space, &blade);
+    assert!(blade.fit.greatest_distance_mm < 2e-3, "{}", blade.fit.greatest_distance_mm);
+    // The leading edge is upstream, at the larger radius.
+    let [a, b] = blade.range(Region::LeadingEdge).unwrap();
+    let p = blade.surface.point(0.5 * (a + b), 0.5);
+    let q = blade.surface.point(
+        0.5 * (blade.range(Region::TrailingEdge).unwrap()[0] + blade.range(Region::TrailingEdge).unwrap()[1]),
+        0.5,
+    );
+    assert!(p.y.hypot(p.z) > q.y.hypot(q.z) + 10.0);
+}

@@ -6,6 +6,7 @@ use common::*;
 use coolinggen_blade::{Blade, BladeSurface};
 use coolinggen_nurbs::{Knots, ParametricSurface, Surface};
 use glam::DVec3;
+use proptest::prelude::*;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -234,4 +235,31 @@ fn refuses_what_is_no_blade() {
     assert_eq!(refused("open", &open), [("/blade/file".to_owned(), "not_closed")]);
     let missing = json!({"space": linear(), "blade": {"kind": "step", "file": "nowhere.step"}});
     assert_eq!(common::refused(&missing), [("/blade/file".to_owned(), "cannot_read")]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #[test]
+    fn damaged_files_are_read_or_refused(changes in proptest::collection::vec((any::<u32>(), any::<u8>(), 1usize..200), 1..6)) {
+        let mut text = include_str!("data/c3x_opencascade.step").as_bytes().to_vec();
+        for (at, kind, length) in changes {
+            let at = at as usize % text.len();
+            let end = (at + length).min(text.len());
+            match kind % 5 {
+                0 => text[at] = b"0123456789.,;()#'$*-E"[length % 21],
+                1 => drop(text.drain(at..end)),
+                2 => text.extend_from_within(at..end),
+                3 => text.insert(at, b"()#';,.1"[length % 8]),
+                // Another number for one.
+                _ => {
+                    let digit = text[at..].iter().position(u8::is_ascii_digit).map_or(at, |d| at + d);
+                    text[digit] = b'0' + (length % 10) as u8;
+                }
+            }
+        }
+        let file = File::new("damaged", &String::from_utf8_lossy(&text));
+        if let Err(faults) = file.built(linear(), json!({})) {
+            prop_assert!(!faults.is_empty());
+        }
+    }
 }

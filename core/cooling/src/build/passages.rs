@@ -193,8 +193,9 @@ fn spans(
     Ok(plan.chambers.iter().map(|c| c.span.unwrap_or([0.0, top])).collect())
 }
 
-/// Whether the leading chamber may follow the offset profile round the nose: one answer for all its sections, for a
-/// change of form inside the span would show in the loft.
+/// Whether the leading chamber may follow the offset profile round the nose: it may where the nose is nowhere sharper
+/// than half the fillet radius. One answer for all its sections, for a change of form inside the span would show in the
+/// loft; the margin of two keeps blades that taper on one side of it.
 fn natural_nose(
     grid: &Grid,
     sections: &[Section],
@@ -212,8 +213,8 @@ fn natural_nose(
         let regular = (1..SAMPLES).all(|i| {
             let u = start + (end - start) * i as f64 / SAMPLES as f64;
             let forward = offset.outline.frame(u).derivative.dot(section.outline.frame(u).derivative) > 0.0;
-            forward && offset.outline.curvature(u) * radius < 1.0
+            forward && offset.outline.curvature(u) * radius < 2.0
         });
-        front.radius > radius && regular
+        front.radius > 0.5 * radius && regular
     })
 }

@@ -32,6 +32,8 @@ pub(super) struct CutTube {
 /// How far an edge may lie from the stream surface or the patch between its nodes, mm. FreeCAD's check allows
 /// 7e-8 including the reader's own interpolation (DESIGN 6).
 const EDGE_TOLERANCE: f64 = 1e-8;
+/// Most parts that a span of the patch is cut into to reach it.
+const MOST_PARTS: usize = 200;
 
 /// Where a patch meets a stream surface.
 struct Crossing {
@@ -217,7 +219,8 @@ fn crossing(surface: &SurfaceGeometry, stream: &StreamSurface, guess: f64) -> Op
     let straight = breaks.iter().all(|&u| level_at(u) < 1e-11);
     let pace =
         if straight { Curve::segment(breaks[0], breaks[breaks.len() - 1]) } else { pace(&breaks).ok()? };
-    for parts in [2, 3, 5, 8, 13] {
+    let mut parts = 2;
+    loop {
         let count = (breaks.len() - 1) * parts;
         let mut nodes = vec![0.0];
         let mut parameters = vec![DVec2::new(breaks[0], level_v)];
@@ -247,9 +250,14 @@ fn crossing(surface: &SurfaceGeometry, stream: &StreamSurface, guess: f64) -> Op
             let (level, gradient) = stream.level(point);
             worst.max(off_patch).max(level.abs() / gradient.length())
         });
-        if worst <= EDGE_TOLERANCE || parts == 13 {
-            return (worst <= 3.0 * EDGE_TOLERANCE).then_some(Crossing { curve, pcurve });
+        if worst <= EDGE_TOLERANCE {
+            return Some(Crossing { curve, pcurve });
         }
+        if parts >= MOST_PARTS || !worst.is_finite() {
+            return None;
+        }
+        // The error falls with the fourth power of the step.
+        let finer = parts as f64 * 1.1 * (worst / EDGE_TOLERANCE).powf(0.25);
+        parts = (finer.ceil() as usize).clamp(parts + 1, MOST_PARTS);
     }
-    None
 }

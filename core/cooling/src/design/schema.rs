@@ -264,6 +264,15 @@ impl Walk {
             self.report(fault);
             return;
         }
+        let constants: Vec<&Value> = options.iter().filter_map(|o| o.get("const")).collect();
+        if constants.len() == options.len() {
+            if !constants.contains(&value) {
+                let list: Vec<String> = constants.iter().map(|c| c.to_string()).collect();
+                let message = format!("must be one of {}", list.join(", "));
+                self.report(Fault::new(&*pointer, "choice", message).value(shown(value)));
+            }
+            return;
+        }
         let fits = |o: &&&'static Value| match o.get("type") {
             Some(Value::String(name)) => is_of_type(value, name),
             Some(Value::Array(names)) => names.iter().filter_map(Value::as_str).any(|n| is_of_type(value, n)),

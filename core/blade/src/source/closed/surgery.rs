@@ -99,15 +99,22 @@ pub(super) fn begun_at(
 }
 
 fn without_knot(surface: &BladeSurface, t: f64, tolerance: f64) -> Result<BladeSurface, NurbsError> {
-    on_net!(surface, net => {
-        let (rows, columns) = net.counts();
-        let mut reduced = Vec::with_capacity(columns);
-        for j in 0..columns {
-            let column = (0..rows).map(|i| net.points()[i * columns + j]).collect();
-            reduced.push(Curve::new(net.knots_u().clone(), column)?.with_knot_removed(t, tolerance)?.0);
-        }
-        Surface::from_columns(&reduced, net.knots_v().clone())?
-    })
+    on_net!(surface, net => net_without_knot(net, t, tolerance)?)
+}
+
+/// The net with one occurrence of the knot `t` in u removed; no point moves by more than `tolerance`.
+pub(in crate::source) fn net_without_knot<V: VectorSpace>(
+    net: &Surface<V>,
+    t: f64,
+    tolerance: f64,
+) -> Result<Surface<V>, NurbsError> {
+    let (rows, columns) = net.counts();
+    let mut reduced = Vec::with_capacity(columns);
+    for j in 0..columns {
+        let column = (0..rows).map(|i| net.points()[i * columns + j]).collect();
+        reduced.push(Curve::new(net.knots_u().clone(), column)?.with_knot_removed(t, tolerance)?.0);
+    }
+    Surface::from_columns(&reduced, net.knots_v().clone())
 }
 
 /// One net from nets whose u domains follow each other and whose borders agree; equal degrees and v knots.

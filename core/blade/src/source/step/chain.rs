@@ -10,28 +10,30 @@ type Net = Surface<Homogeneous<DVec3>>;
 /// A ring of patches, each turned so that its u runs on from the one before and its v along the blade.
 #[derive(Clone, Debug)]
 pub(super) struct Ring {
-    /// Index of the patch, and its net as turned, on u and v in [0, 1].
-    patches: Vec<(usize, Net)>,
+    /// Indices of the patches and their orientations.
+    path: Vec<(usize, usize)>,
     /// Area, roughly, mm2.
     area: f64,
 }
 
 /// Points a border is compared at.
 const LOOKS: usize = 9;
+/// A knot at a border is needless if no point moves by more than this without it, mm.
+const NEEDLESS: f64 = 1e-10;
 /// Rings are sought from at most this many patches.
 const MOST_STARTS: usize = 60;
 
 impl Ring {
     /// Indices of the patches.
     pub(super) fn members(&self) -> Vec<usize> {
-        self.patches.iter().map(|(i, _)| *i).collect()
+        self.path.iter().map(|(i, _)| *i).collect()
     }
 }
 
 /// The ring of patches with the greatest area, each meeting the next along a whole border within `tolerance` mm.
-pub(super) fn ring(patches: &[Patch], tolerance: f64) -> Result<Option<Ring>, NurbsError> {
+pub(super) fn ring(patches: &[Patch], tolerance: f64) -> Option<Ring> {
     let mut best: Option<Ring> = None;
-    let nets = patches.iter().map(|p| variants(&p.net)).collect::<Result<Vec<_>, _>>()?;
+    let nets: Vec<_> = patches.iter().map(|p| variants(&p.net)).collect();
     for start in 0..nets.len().min(MOST_STARTS) {
         // As it is, and with u and v exchanged; the other turns lead to the same rings.
         for turn in [0, 4] {
@@ -42,42 +44,50 @@ pub(super) fn ring(patches: &[Patch], tolerance: f64) -> Result<Option<Ring>, Nu
             }
         }
     }
-    Ok(best)
+    best
 }
 
-/// A net in its eight orientations: bit 0 reverses u, bit 1 v, bit 2 exchanges them first; with the start and the end
-/// border of each.
+/// A net in one of its eight orientations: bit 0 of `turn` reverses u, bit 1 v, bit 2 exchanges them first.
 struct Turned {
-    net: Net,
+    /// Start and end border, at even distances of the parameter.
     borders: [[DVec3; LOOKS]; 2],
     area: f64,
 }
 
-fn variants(net: &Net) -> Result<Vec<Turned>, NurbsError> {
+fn variants(net: &Net) -> Vec<Turned> {
     let ((a, b), (c, d)) = net.domain();
-    let net = net.restricted_u(a, b)?.restricted_v(c, d)?;
-    let mut all = Vec::with_capacity(8);
-    for turn in 0..8 {
-        let mut turned = if turn & 4 == 0 { net.clone() } else { net.transposed() };
-        if turn & 1 != 0 {
-            turned = surgery::net_reversed_u(&turned)?;
-        }
-        if turn & 2 != 0 {
-            turned = surgery::net_reversed_u(&turned.transposed())?.transposed();
-        }
-        turned = surgery::rebased(&turned, (0.0, 1.0))?;
-        turned = surgery::rebased(&turned.transposed(), (0.0, 1.0))?.transposed();
-        let look = |u: f64, k: usize| turned.point(u, k as f64 / (LOOKS - 1) as f64).project();
-        let border = |u: f64| std::array::from_fn(|k| look(u, k));
-        let borders = [border(0.0), border(1.0)];
-        let along = |k: usize| {
-            (0..8).map(|i| look(i as f64 / 8.0, k).distance(look((i + 1) as f64 / 8.0, k))).sum::<f64>()
-        };
-        let height = look(0.5, 0).distance(look(0.5, LOOKS - 1));
-        let area = height * along(LOOKS / 2);
-        all.push(Turned { net: turned, borders, area });
+    let look = |turn: usize, u: f64, v: f64| {
+        let u = if turn & 1 == 0 { u } else { 1.0 - u };
+        let v = if turn & 2 == 0 { v } else { 1.0 - v };
+        let (u, v) = if turn & 4 == 0 { (u, v) } else { (v, u) };
+        net.point(a + (b - a) * u, c + (d - c) * v).project()
+    };
+    let turned = (0..8).map(|turn| {
+        let at = |u: f64, k: usize| look(turn, u, k as f64 / (LOOKS - 1) as f64);
+        let borders = [0.0, 1.0].map(|u| std::array::from_fn(|k| at(u, k)));
+        let around: f64 = (0..8)
+            .map(|i| at(f64::from(i) / 8.0, LOOKS / 2).distance(at(f64::from(i + 1) / 8.0, LOOKS / 2)))
+            .sum();
+        Turned { borders, area: around * at(0.5, 0).distance(at(0.5, LOOKS - 1)) }
+    });
+    turned.collect()
+}
+
+/// The net in an orientation, on [0, 1] both ways.
+fn oriented(net: &Net, turn: usize) -> Result<Net, NurbsError> {
+    let ((a, b), (c, d)) = net.domain();
+    let mut net = net.restricted_u(a, b)?.restricted_v(c, d)?;
+    if turn & 4 != 0 {
+        net = net.transposed();
     }
-    Ok(all)
+    if turn & 1 != 0 {
+        net = surgery::net_reversed_u(&net)?;
+    }
+    if turn & 2 != 0 {
+        net = surgery::net_reversed_u(&net.transposed())?.transposed();
+    }
+    net = surgery::rebased(&net, (0.0, 1.0))?;
+    Ok(surgery::rebased(&net.transposed(), (0.0, 1.0))?.transposed())
 }
 
 fn follow(nets: &[Vec<Turned>], start: usize, turn: usize, tolerance: f64) -> Option<Ring> {
@@ -94,8 +104,7 @@ fn follow(nets: &[Vec<Turned>], start: usize, turn: usize, tolerance: f64) -> Op
         let end = &nets[i][t].borders[1];
         if meets(end, &first.borders[0]) {
             let area = path.iter().map(|&(i, t)| nets[i][t].area).sum();
-            let patches = path.into_iter().map(|(i, t)| (i, nets[i][t].net.clone())).collect();
-            return Some(Ring { patches, area });
+            return Some(Ring { path, area });
         }
         let unused = (0..nets.len()).filter(|i| path.iter().all(|(used, _)| used != i));
         let next = unused
@@ -108,8 +117,9 @@ fn follow(nets: &[Vec<Turned>], start: usize, turn: usize, tolerance: f64) -> Op
 /// One closed net from a ring: degrees are raised and knots inserted until borders agree, the parameter of each patch is
 /// scaled so that it runs on at the same speed, and knots needed no more are taken out. Also the greatest distance by
 /// which a border was moved to close a gap, mm.
-pub(super) fn joined(ring: &Ring) -> Result<(Net, f64), NurbsError> {
-    let mut nets: Vec<Net> = ring.patches.iter().map(|(_, net)| net.clone()).collect();
+pub(super) fn joined(ring: &Ring, patches: &[Patch]) -> Result<(Net, f64), NurbsError> {
+    let nets = ring.path.iter().map(|&(i, turn)| oriented(&patches[i].net, turn));
+    let mut nets = nets.collect::<Result<Vec<_>, _>>()?;
     let degrees =
         nets.iter().fold((0, 0), |(p, q), n| (p.max(n.knots_u().degree()), q.max(n.knots_v().degree())));
     for net in &mut nets {
@@ -151,7 +161,14 @@ pub(super) fn joined(ring: &Ring) -> Result<(Net, f64), NurbsError> {
         placed.push(surgery::rebased(net, (at, at + width))?);
         at += width;
     }
-    Ok((surgery::glued(&placed)?, gap))
+    let mut whole = surgery::glued(&placed)?;
+    for net in &placed[1..] {
+        let border = net.knots_u().domain().0;
+        while let Ok(less) = surgery::net_without_knot(&whole, border, NEEDLESS) {
+            whole = less;
+        }
+    }
+    Ok((whole, gap))
 }
 
 /// Mean length of the derivative in u along the border at `u`.

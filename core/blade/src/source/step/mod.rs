@@ -98,7 +98,7 @@ impl StepSource {
         if let Some(names) = &self.faces {
             self.pick(names, &mut patches)?;
         }
-        let ring = chain::ring(&patches, self.tolerance).map_err(failed)?.ok_or_else(|| {
+        let ring = chain::ring(&patches, self.tolerance).ok_or_else(|| {
             let message = format!(
                 "none of the {} B-spline surfaces is closed, and no ring of them joins within {} mm",
                 patches.len(),
@@ -107,7 +107,7 @@ impl StepSource {
             fault("not_closed", message).into_iter().map(|f| f.hint(AS_NURBS)).collect::<Vec<_>>()
         })?;
         let members = ring.members();
-        let (net, gap) = chain::joined(&ring).map_err(failed)?;
+        let (net, gap) = chain::joined(&ring, &patches).map_err(failed)?;
         if gap > 1.01 * self.tolerance {
             let message =
                 format!("the surfaces join within {gap:.3e} mm only after their knots are made equal");
