@@ -78,6 +78,39 @@ fn every_edge_of_a_shell_is_used_once_each_way() {
 }
 
 #[test]
+fn edges_carry_a_parameter_curve_for_each_face() {
+    for (name, model) in support::all() {
+        let text = step(&model, &[]);
+        let all = entities(&text);
+        let (edges, pcurves) = (of_kind(&all, "EDGE_CURVE"), of_kind(&all, "PCURVE"));
+        // Rational curves in a plane go without.
+        let missing = if name == "round" { 8 } else { 0 };
+        assert_eq!(pcurves.len(), 2 * edges.len() - missing, "{name}");
+        let mut surfaces: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (_, body) in of_kind(&all, "ADVANCED_FACE") {
+            let refs = references(body);
+            for bound in &refs[..refs.len() - 1] {
+                for oriented in references(all[&references(all[bound])[0]]) {
+                    surfaces.entry(references(all[&oriented])[0]).or_default().push(refs[refs.len() - 1]);
+                }
+            }
+        }
+        for (edge, body) in edges {
+            let curve = all[&references(body)[2]];
+            let on: Vec<usize> = references(curve)[1..].iter().map(|p| references(all[p])[0]).collect();
+            assert!(
+                curve.starts_with("SURFACE_CURVE(") && on.iter().all(|s| surfaces[&edge].contains(s)),
+                "{name}"
+            );
+        }
+    }
+    let options = StepOptions { pcurves: false, ..StepOptions::default() };
+    let mut out = Vec::new();
+    write_step(&support::blocks::cuboid(), &[], &options, &mut out).unwrap();
+    assert!(!String::from_utf8(out).unwrap().contains("PCURVE"));
+}
+
+#[test]
 fn names_are_written_and_escaped() {
     let model = support::blocks::cuboid();
     let text = step(&model, &["metal"]);

@@ -53,7 +53,7 @@ fn check_shape(space: &StreamSpace, blade: &Blade) {
             assert!(surface.to_space(*q).distance(p) < 1e-10);
         }
         let area = polygon_area(&profile.iter().map(|(_, q)| *q).collect::<Vec<_>>());
-        assert_eq!(area > 0.0, blade.outward);
+        assert_eq!(area > 0.0, blade.outward, "{v} {area} {:?}", blade.surface.domain());
     }
     // Outward means away from the middle line.
     let d = blade.surface.derivatives(0.5 * blade.regions[0].1[1], 0.5);

@@ -2,8 +2,8 @@
 
 use super::geometry::{CurveEntity, Form, Placement, Point, SurfaceEntity};
 use coolinggen_brep::{EdgeCurve, Face, Model, Revolution, RevolutionKind, Shell, Solid, SurfaceGeometry};
-use coolinggen_nurbs::{Curve, ParametricCurve};
-use glam::{DVec2, DVec3};
+use coolinggen_nurbs::ParametricCurve;
+use glam::DVec3;
 use std::borrow::Cow;
 use std::f64::consts::PI;
 use truck_stepio::out::StepLength;

@@ -28,7 +28,7 @@ pub(super) struct Grid {
     pieces: [Piece; 3],
     /// Ends of the leading edge: pressure side, suction side.
     pub(super) leading_edge: (f64, f64),
-    /// Middle of the leading edge.
+    /// The foremost point.
     pub(super) nose: f64,
 }
 
@@ -63,7 +63,7 @@ impl Grid {
             piece(leading[0], leading[1], 0.0)?,
             piece(suction[0], suction[1], 0.0)?,
         ];
-        let nose = 0.5 * (leading[0] + leading[1]);
+        let nose = foremost(blade, &nodes, suction[1]);
         Ok(Self { nodes, pieces, leading_edge: (leading[0], leading[1]), nose })
     }
 
@@ -91,6 +91,16 @@ impl Grid {
         }
         Curve::new(Knots::new(3, knots)?, controls)
     }
+}
+
+/// The node of the middle section farthest from the trailing edge: the leading edge's region may reach farther along
+/// one side than along the other.
+fn foremost(blade: &Blade, nodes: &[f64], trailing: f64) -> f64 {
+    const MIDDLE: f64 = 0.5;
+    let end = blade.surface.point(trailing, MIDDLE);
+    let distance = |u: f64| blade.surface.point(u.rem_euclid(1.0), MIDDLE).distance(end);
+    let far = nodes.iter().copied().max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+    far.unwrap_or(0.0)
 }
 
 impl Section {

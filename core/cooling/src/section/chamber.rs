@@ -91,9 +91,10 @@ pub fn chamber_ring(request: &RingRequest<'_>) -> Result<ChamberRing, Refusal> {
 impl Camber {
     /// Camber of an outline: the outer profile's, or an offset's.
     ///
-    /// `nose` is the parameter in the middle of the leading edge, `leading_edge` its two ends (pressure side,
-    /// suction side); marching ends where a contact comes within 1.05 times that of the nose, or where the radius
-    /// falls below `least_radius` at (front, back).
+    /// `nose` is the parameter of the foremost point, `leading_edge` the two ends of the leading edge (pressure side,
+    /// suction side). Marching ends where the contacts are about to merge: where a circle comes near to osculating a
+    /// side, as on a circular nose, where its normals nearly coincide, or where a contact comes within a third of the
+    /// leading edge's end to the nose; and where the radius falls below `least_radius` at (front, back).
     ///
     /// # Errors
     /// [`Refusal::NoInscribedCircle`].
@@ -106,7 +107,10 @@ impl Camber {
     ) -> Result<Self, Refusal> {
         let (start, end) = outline.domain();
         let limits = MarchLimits {
-            front: (nose + 1.05 * (leading_edge.1 - nose), nose + 1.05 * (leading_edge.0 - nose)),
+            front: (
+                nose + (leading_edge.1 - nose).max(0.0) / 3.0,
+                nose + (leading_edge.0 - nose).min(0.0) / 3.0,
+            ),
             back: (end, start),
             front_radius: least_radius.0,
             back_radius: least_radius.1,

@@ -1,5 +1,6 @@
 //! Blades given by points of sections.
 
+mod agree;
 mod check;
 mod points;
 mod read;

@@ -1,5 +1,6 @@
 //! Reading one section: its points in order, its noses, which way it runs.
 
+use super::agree;
 use super::points::gather;
 use super::{Extreme, SectionSpec, SectionsSource, pointer};
 use crate::fault::{Fault, Pointer};
@@ -7,11 +8,16 @@ use crate::section::{Nose, Ring, farthest_from, farthest_pair, find_noses};
 use crate::stream::StreamSpace;
 use glam::DVec2;
 
-/// A section in order: leading edge, suction side, trailing edge, pressure side.
+/// A section in order, counterclockwise until all sections agree on the order leading edge, suction side, trailing edge,
+/// pressure side.
 pub(super) struct Read {
     pub(super) ring: Ring,
     /// Leading and trailing edge.
     pub(super) noses: [Nose; 2],
+    /// Whether the section says where its edges are.
+    pub(super) given_edges: bool,
+    /// Number of points of the suction side, which come first, if the section says which they are.
+    pub(super) suction: Option<usize>,
     pub(super) notes: Vec<String>,
 }
 
@@ -28,39 +34,20 @@ pub(super) fn all(source: &SectionsSource, _space: &StreamSpace) -> Result<Vec<R
     if !faults.is_empty() {
         return Err(faults);
     }
+    agree::flow(&mut read);
+    for (k, r) in read.iter().enumerate() {
+        if let Err(mut more) = check_corners(&r.ring, &r.noses, &source.sections[k], k) {
+            faults.append(&mut more);
+        }
+    }
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    agree::direction(&mut read)?;
     for end in 0..2 {
-        agree(&mut read, end);
+        agree::edges(&mut read, end);
     }
     Ok(read)
-}
-
-/// An edge that is an arc in some sections and merely smooth in others is taken as smooth in all, so that its ends are
-/// found alike and run evenly along the blade.
-fn agree(read: &mut [Read], end: usize) {
-    let is_arc = |r: &Read| matches!(r.noses[end], Nose::Arc { .. });
-    let is_smooth = |r: &Read| matches!(r.noses[end], Nose::Smooth { .. });
-    let name = ["leading", "trailing"][end];
-    let note = if read.iter().any(is_arc) && read.iter().any(is_smooth) {
-        for r in read.iter_mut() {
-            if matches!(r.noses[end], Nose::Arc { .. }) {
-                r.noses[end] = Nose::Smooth { tip: center_index(&r.ring, &r.noses[end]) };
-            }
-        }
-        format!("the {name} edge is circular in some sections only: drawn as a smooth curve in all")
-    } else {
-        let radii = read.iter().filter_map(|r| match &r.noses[end] {
-            Nose::Arc { circle, .. } => Some(circle.radius),
-            _ => None,
-        });
-        let (low, high) = radii.fold((f64::INFINITY, 0.0f64), |(a, b), r| (a.min(r), b.max(r)));
-        match &read[0].noses[end] {
-            Nose::Arc { .. } => format!("the {name} edge is circular, radius {low:.4} to {high:.4} mm"),
-            Nose::Sharp { .. } => format!("the {name} edge is sharp"),
-            Nose::Blunt { .. } => format!("the {name} edge is blunt"),
-            Nose::Smooth { .. } => format!("the {name} edge is smooth, not circular"),
-        }
-    };
-    read[0].notes.push(note);
 }
 
 /// The pointer to point `origin` of a section: suction-side points come before pressure-side points.
@@ -91,63 +78,13 @@ fn one(section: &SectionSpec, k: usize, tolerance: f64) -> Result<Read, Vec<Faul
         find_noses(&ring, leading_tip, extent, tolerance),
         find_noses(&ring, trailing_tip, extent, tolerance),
     ];
-    if known.is_none() && section.leading_edge.is_none() && section.trailing_edge.is_none() {
-        // The flow comes from smaller m: the leading edge is the nose there.
-        if middle(&ring, &noses[0]).x > middle(&ring, &noses[1]).x {
-            noses.reverse();
-        }
+    let given = section.leading_edge.is_some() || section.trailing_edge.is_some();
+    // The flow comes from smaller m: the leading edge is the nose there.
+    if !given && agree::chord(&ring, &noses).x < 0.0 {
+        noses.reverse();
     }
-    check_corners(&ring, &noses, section, k)?;
-    orient(&mut ring, &mut noses, section.suction_side.as_ref().map(Vec::len));
-    Ok(Read { ring, noses, notes })
-}
-
-/// Swaps the direction of the ring so that the suction side follows the leading edge.
-fn orient(ring: &mut Ring, noses: &mut [Nose; 2], suction_count: Option<usize>) {
-    let (l, t) = (center_index(ring, &noses[0]), center_index(ring, &noses[1]));
-    let n = ring.len();
-    let follows = match suction_count {
-        // Sides are known: most points between the edges are of the suction side.
-        Some(count) => {
-            let between = (t + n - l) % n;
-            let of_suction = (0..=between).filter(|k| ring.origins[(l + k) % n] < count).count();
-            2 * of_suction > between
-        }
-        // The suction side is the longer one.
-        None => ring.length(l, t) >= ring.length(t, l),
-    };
-    if !follows {
-        ring.reverse();
-        let flip = |i: usize| n - 1 - i;
-        for nose in noses {
-            *nose = match nose.clone() {
-                Nose::Arc { circle, first, last } => {
-                    Nose::Arc { circle, first: flip(last), last: flip(first) }
-                }
-                Nose::Sharp { at } => Nose::Sharp { at: flip(at) },
-                Nose::Blunt { first, last } => Nose::Blunt { first: flip(last), last: flip(first) },
-                Nose::Smooth { tip } => Nose::Smooth { tip: flip(tip) },
-            };
-        }
-    }
-}
-
-fn center_index(ring: &Ring, nose: &Nose) -> usize {
-    let n = ring.len();
-    match nose {
-        Nose::Arc { first, last, .. } | Nose::Blunt { first, last } => {
-            (first + (last + n - first) % n / 2) % n
-        }
-        Nose::Sharp { at } => *at,
-        Nose::Smooth { tip } => *tip,
-    }
-}
-
-fn middle(ring: &Ring, nose: &Nose) -> DVec2 {
-    match nose {
-        Nose::Arc { circle, .. } => circle.center,
-        _ => ring.points[center_index(ring, nose)],
-    }
+    let suction = section.suction_side.as_ref().map(Vec::len);
+    Ok(Read { ring, noses, given_edges: given, suction, notes })
 }
 
 /// Positions of leading and trailing tip in the ring, and the section's greatest extent.
