@@ -1,6 +1,6 @@
 //! The whole way from a design to a measured model.
 
-use crate::build::{CooledBlade, build};
+use crate::build::{BuildError, CooledBlade, build};
 use crate::design::Design;
 use crate::plan::Plan;
 use crate::report::{Report, Timings};
@@ -38,10 +38,10 @@ pub fn generate(design: &Design, folder: &Path) -> Result<Generated, Vec<Fault>>
     let milliseconds = |since: Instant| since.elapsed().as_secs_f64() * 1e3;
     let blade_ms = milliseconds(started);
     let built = Instant::now();
-    let blade = build(&surface, &space, &plan).map_err(|e| e.into_faults())?;
+    let blade = build(&surface, &space, &plan).map_err(BuildError::into_faults)?;
     let build_ms = milliseconds(built);
     let measured = Instant::now();
-    let mut report = Report::new(&design.name, &surface, &blade).map_err(|e| e.into_faults())?;
+    let mut report = Report::new(&design.name, &surface, &blade).map_err(BuildError::into_faults)?;
     report.timings_ms = Timings {
         blade: blade_ms,
         build: build_ms,

@@ -44,14 +44,19 @@ pub(crate) fn validate(path: &Path, json: bool) -> Result<(), Failure> {
 /// Prints the report.
 pub(crate) fn inspect(path: &Path, json: bool) -> Result<(), Failure> {
     let generated = read_and_build(path, json)?;
-    if json { print(&format!("{:#}\n", generated.report.to_json())) } else { print(&generated.report.to_text()) }
+    if json {
+        print(&format!("{:#}\n", generated.report.to_json()))
+    } else {
+        print(&generated.report.to_text())
+    }
 }
 
 /// Builds a design and writes the files.
 pub(crate) fn generate(options: &GenerateOptions) -> Result<(), Failure> {
     let json = options.json;
     let generated = read_and_build(&options.design, json)?;
-    std::fs::create_dir_all(&options.out).map_err(|e| Failure::file("make the folder", &options.out, e, json))?;
+    std::fs::create_dir_all(&options.out)
+        .map_err(|e| Failure::file("make the folder", &options.out, e, json))?;
     let mut report = generated.report.to_json();
     let started = Instant::now();
     write_solids(options, &generated)?;
@@ -79,7 +84,11 @@ fn read_and_build(path: &Path, json: bool) -> Result<Generated, Failure> {
 fn write_solids(options: &GenerateOptions, generated: &Generated) -> Result<(), Failure> {
     let model = &generated.blade.model;
     let json = options.json;
-    let tessellation = TessellationOptions { chord_mm: options.chord, angle_deg: options.angle, ..TessellationOptions::default() };
+    let tessellation = TessellationOptions {
+        chord_mm: options.chord,
+        angle_deg: options.angle,
+        ..TessellationOptions::default()
+    };
     let meshes = options.format.iter().any(|f| *f != Format::Step);
     let progress = Progress::new((options.format.len() * options.solids.len() + usize::from(meshes)) as u64);
     let mesh = if meshes {
@@ -114,11 +123,12 @@ fn write_solids(options: &GenerateOptions, generated: &Generated) -> Result<(), 
             let stem = format!("{}.{part}", generated.report.name);
             let path = options.out.join(format!("{stem}.{extension}"));
             progress.step(&path.display().to_string());
-            let step_options = exporters::StepOptions { name: stem.clone(), ..exporters::StepOptions::default() };
+            let step_options =
+                exporters::StepOptions { name: stem.clone(), ..exporters::StepOptions::default() };
             let result = match (format, &mesh) {
-                (Format::Step, _) => write_atomically(&path, |out| {
-                    exporters::write_step(model, &names, &step_options, out)
-                }),
+                (Format::Step, _) => {
+                    write_atomically(&path, |out| exporters::write_step(model, &names, &step_options, out))
+                }
                 (_, None) => Ok(()),
                 (Format::Glb, Some(mesh)) => {
                     write_atomically(&path, |out| exporters::write_glb(model, &names, mesh, out))
@@ -128,10 +138,14 @@ fn write_solids(options: &GenerateOptions, generated: &Generated) -> Result<(), 
                 }
                 (Format::Obj, Some(mesh)) => {
                     let library = format!("{stem}.mtl");
-                    write_atomically(&options.out.join(&library), |out| exporters::write_mtl(model, &names, out))
-                        .and_then(|()| {
-                            write_atomically(&path, |out| exporters::write_obj(model, &names, mesh, &library, out))
+                    write_atomically(&options.out.join(&library), |out| {
+                        exporters::write_mtl(model, &names, out)
+                    })
+                    .and_then(|()| {
+                        write_atomically(&path, |out| {
+                            exporters::write_obj(model, &names, mesh, &library, out)
                         })
+                    })
                 }
             };
             result.map_err(|e| Failure::file("write", &path, e, json))?;

@@ -4,4 +4,6 @@
 pub(crate) const TEMPLATES: &[(&str, &str)] = &[
     ("rotor", include_str!("../../../samples/rotor.json")),
     ("c3x", include_str!("../../../samples/c3x.json")),
+    ("pritchard", include_str!("../../../samples/pritchard.json")),
+    ("surface", include_str!("../../../samples/surface.json")),
 ];

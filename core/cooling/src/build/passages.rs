@@ -93,7 +93,7 @@ pub(super) fn add_chambers(
             let request = RingRequest { outline: &offset.outline, camber: &offset.camber, front, back };
             match chamber_ring(&request) {
                 Ok(ring) => {
-                    rings.push(RingSection { stream: &section.stream, outline: &offset.outline, ring })
+                    rings.push(RingSection { stream: &section.stream, outline: &offset.outline, ring });
                 }
                 Err(refusal) => {
                     let at = blame(&pointer, &refusal);

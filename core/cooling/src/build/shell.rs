@@ -59,7 +59,7 @@ pub(super) fn offset_section(
     let governs = |u: f64| (rough.back().pressure..=rough.back().suction).contains(&u);
     let mut parts = grid
         .piece_nodes()
-        .map(|nodes| Part::new(grid, nodes, &governs))
+        .map(|nodes| Part::new(grid, nodes, governs))
         .collect::<Result<Vec<_>, BuildError>>()?;
     let mut worst = f64::INFINITY;
     for _ in 0..ROUNDS {
@@ -88,7 +88,7 @@ pub(super) fn offset_section(
         outline = offset(&distance)?;
     }
     if !(worst <= 10.0 * TOLERANCE) {
-        let message = format!("at span fraction {v:.4} the shell's thickness stays {:.2e} off", worst);
+        let message = format!("at span fraction {v:.4} the shell's thickness stays {worst:.2e} off");
         let fault = Fault::new("/cooling/shell", "geometry", message)
             .hint("the shell is too thick for the curvature of the blade there");
         return Err(BuildError::Refused(vec![fault]));

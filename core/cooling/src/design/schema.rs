@@ -118,7 +118,7 @@ impl Walk {
             return true;
         }
         let message = format!("must be {}, not {}", names.join(" or "), type_name(value));
-        self.report(Fault::new(&*pointer, "type", message).value(shown(value)));
+        self.report(Fault::new(pointer, "type", message).value(shown(value)));
         false
     }
 
@@ -206,7 +206,7 @@ impl Walk {
         let high = limits.maximum.is_some_and(|most| !(number <= most));
         if low || high || !number.is_finite() {
             let side = if low { "too small" } else { "too large" };
-            let mut fault = Fault::new(&*pointer, "range", side).value(shown(value));
+            let mut fault = Fault::new(pointer, "range", side).value(shown(value));
             if let Some(least) = limits.minimum {
                 fault = fault.min(least);
             }
@@ -225,7 +225,7 @@ impl Walk {
         if !name_matches(pattern, text) {
             let message = format!("must match {pattern}");
             self.report(
-                Fault::new(&*pointer, "pattern", message)
+                Fault::new(pointer, "pattern", message)
                     .value(text)
                     .hint("letters, digits, '_' and '-', beginning with a letter or digit"),
             );
@@ -267,7 +267,7 @@ impl Walk {
         let constants: Vec<&Value> = options.iter().filter_map(|o| o.get("const")).collect();
         if constants.len() == options.len() {
             if !constants.contains(&value) {
-                let list: Vec<String> = constants.iter().map(|c| c.to_string()).collect();
+                let list: Vec<String> = constants.iter().map(ToString::to_string).collect();
                 let message = format!("must be one of {}", list.join(", "));
                 self.report(Fault::new(&*pointer, "choice", message).value(shown(value)));
             }
