@@ -66,14 +66,27 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     Ok(CooledBlade { model, outer_faces: outer.faces, passage_faces, end_faces, radial_holes })
 }
 
-/// The outer surface, a face a region, cut at hub and tip.
+/// The outer surface, a face a region, cut at hub and tip. A region is parted where the surface is only continuous: a
+/// face with a full knot inside is refused by FreeCAD's check, however smooth it is there.
 fn add_blade(model: &mut Model, blade: &Blade, ends: [&StreamSurface; 2]) -> Result<CutTube, BuildError> {
-    let patches = (blade.regions.iter())
-        .map(|(region, [start, end])| {
-            let name = format!("blade/{}", region.name());
-            Ok(Patch { name, style: style::blade(), surface: blade.surface.patch(*start, *end)? })
-        })
-        .collect::<Result<_, BuildError>>()?;
+    let knots = blade.surface.knots_u();
+    let mut patches = Vec::new();
+    for (region, [start, end]) in &blade.regions {
+        let inside = knots.breaks().into_iter().filter(|k| k > start && k < end);
+        let full: Vec<f64> = inside.filter(|&k| knots.multiplicity(k) >= knots.degree()).collect();
+        let cuts: Vec<f64> = [*start].into_iter().chain(full).chain([*end]).collect();
+        for (i, pair) in cuts.windows(2).enumerate() {
+            let name = match cuts.len() {
+                2 => format!("blade/{}", region.name()),
+                _ => format!("blade/{}/{}", region.name(), i + 1),
+            };
+            patches.push(Patch {
+                name,
+                style: style::blade(),
+                surface: blade.surface.patch(pair[0], pair[1])?,
+            });
+        }
+    }
     add_tube(model, patches, ends)
 }
 

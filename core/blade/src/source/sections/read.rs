@@ -65,6 +65,7 @@ pub(super) fn pointer_of(section: &SectionSpec, k: usize, origin: usize) -> Poin
 }
 
 fn one(section: &SectionSpec, k: usize, tolerance: f64) -> Result<Read, Vec<Fault>> {
+    check_side_lengths(section, k)?;
     let mut notes = Vec::new();
     let (mut ring, edges) = gather(section, k, &mut notes)?;
     let ccw = ring.area() > 0.0;
@@ -85,6 +86,22 @@ fn one(section: &SectionSpec, k: usize, tolerance: f64) -> Result<Read, Vec<Faul
     }
     let suction = section.suction_side.as_ref().map(Vec::len);
     Ok(Read { ring, noses, given_edges: given, suction, notes })
+}
+
+/// Refuses sides that are too short to be sides, each by its own name.
+fn check_side_lengths(section: &SectionSpec, k: usize) -> Result<(), Vec<Fault>> {
+    const LEAST: usize = 3;
+    let sides = [("suction_side", &section.suction_side), ("pressure_side", &section.pressure_side)];
+    let faults: Vec<Fault> = sides
+        .into_iter()
+        .filter_map(|(name, side)| Some((name, side.as_ref()?.len())))
+        .filter(|(_, count)| *count < LEAST)
+        .map(|(name, count)| {
+            let message = format!("a side has at least {LEAST} points, here are {count}");
+            Fault::new(pointer(k).at(name), "point_count", message).value(count).min(LEAST as f64)
+        })
+        .collect();
+    if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
 /// Positions of leading and trailing tip in the ring, and the section's greatest extent.
