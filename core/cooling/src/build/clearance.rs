@@ -33,7 +33,7 @@ pub(super) fn check(
             );
             let fault =
                 Fault::new(format!("{at}/diameter"), "leaves_blade", message).value(diameter).unit("mm");
-            let greatest = diameter + 2.0 * room;
+            let greatest = 2.0 * room_about_axis(&probe, hole)?;
             faults.push(if greatest > 0.0 {
                 fault.max(greatest)
             } else {
@@ -85,6 +85,16 @@ fn room_to_surface(probe: &Probe<'_>, hole: &RadialHoleGeometry) -> Result<(f64,
                 least = (thickness, station);
             }
         }
+    }
+    Ok(least)
+}
+
+/// Least distance from the axis to the outer surface: a hole of this radius fits.
+fn room_about_axis(probe: &Probe<'_>, hole: &RadialHoleGeometry) -> Result<f64, BuildError> {
+    let mut least = f64::INFINITY;
+    for j in 0..=4 * ALONG {
+        let station = j as f64 / (4 * ALONG) as f64;
+        least = least.min(probe.thickness(hole.hub.lerp(hole.tip, station))?);
     }
     Ok(least)
 }
