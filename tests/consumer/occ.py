@@ -13,8 +13,8 @@ from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
 from OCP.Message import Message, Message_Gravity
 from OCP.Quantity import Quantity_ColorRGBA
-from OCP.StepShape import StepShape_AdvancedFace
 from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.StepShape import StepShape_AdvancedFace
 from OCP.TCollection import TCollection_AsciiString, TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_Label
@@ -80,8 +80,8 @@ def read(path: Path) -> list[Product]:
 
 
 def _name_in_the_file(transfer, face: TopoDS_Shape) -> str | None:
-    """The name of the entity that the face was read from. The document lists only the faces of outer shells by name
-    (ExpandManifoldSolidBrep), not those of voids."""
+    """The name of the entity that the face was read from. The document lists only the faces of outer shells
+    by name (ExpandManifoldSolidBrep), not those of voids."""
     entity = transfer.EntityFromShapeResult(face, 1)
     if not isinstance(entity, StepShape_AdvancedFace) or entity.Name() is None:
         return None
