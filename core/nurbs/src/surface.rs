@@ -28,6 +28,19 @@ impl SurfaceDerivatives<DVec3> {
     pub fn normal(&self) -> DVec3 {
         self.u.cross(self.v).normalize()
     }
+
+    /// Principal curvatures, the greater first, positive where the centre of curvature lies on the side that the normal
+    /// along `u x v` points to; not finite where the two derivatives are parallel.
+    pub fn principal_curvatures(&self) -> [f64; 2] {
+        let normal = self.normal();
+        let (e, f, g) = (self.u.dot(self.u), self.u.dot(self.v), self.v.dot(self.v));
+        let (l, m, n) = (self.uu.dot(normal), self.uv.dot(normal), self.vv.dot(normal));
+        let determinant = e * g - f * f;
+        let mean = (e * n - 2.0 * f * m + g * l) / (2.0 * determinant);
+        let gauss = (l * n - m * m) / determinant;
+        let half = (mean * mean - gauss).max(0.0).sqrt();
+        [mean + half, mean - half]
+    }
 }
 
 /// What the methods on surfaces ask of a surface.

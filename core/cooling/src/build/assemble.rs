@@ -6,6 +6,7 @@ use super::error::BuildError;
 use super::passages::{Passage, add_chambers};
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section};
+use super::stack::Stack;
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
 use crate::plan::Plan;
@@ -39,8 +40,11 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let mut radial_holes = Vec::new();
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
         let grid = Grid::new(blade)?;
-        let polygons;
-        (passages, polygons) = add_chambers(&mut model, blade, space, &grid, plan)?;
+        let mut polygons = Vec::new();
+        if let (Some(shell), false) = (&plan.shell, plan.chambers.is_empty()) {
+            let stack = Stack::new(blade, space, &grid, plan, shell)?;
+            (passages, polygons) = add_chambers(&mut model, blade, &stack, plan)?;
+        }
         if !plan.radial_holes.is_empty() {
             let sections = [Section::new(blade, space, &grid, 0.0)?, Section::new(blade, space, &grid, 1.0)?];
             for hole in &plan.radial_holes {

@@ -4,10 +4,11 @@ use super::cap::Ring;
 use super::clearance::ChamberPolygon;
 use super::error::BuildError;
 use super::style;
+use super::tube::CutTube;
 use crate::section::{ChamberRing, Outline, SEGMENTS};
 use coolinggen_blade::StreamSurface;
-use coolinggen_brep::{Coedge, EdgeId, Face, FaceId, Loop, Model, SurfaceGeometry, VertexId};
-use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve, Surface};
+use coolinggen_brep::{Coedge, EdgeId, Face, Loop, Model, SurfaceGeometry, VertexId, straight_pcurve};
+use coolinggen_nurbs::{Curve, Interpolator, NurbsError, ParametricCurve, Surface};
 use glam::{DVec2, DVec3};
 
 /// A chamber's ring on one stream surface.
@@ -42,14 +43,10 @@ impl RingSection<'_> {
 /// How far a section curve may lie from the exact one and from its stream surface between nodes, mm.
 const SHAPE_TOLERANCE: f64 = 2e-7;
 const EDGE_TOLERANCE: f64 = 1e-8;
-const MOST_SPANS: usize = 400;
-
-/// The faces of a chamber and its end rings.
-#[derive(Clone, Debug)]
-pub(super) struct ChamberFaces {
-    pub(super) faces: Vec<FaceId>,
-    pub(super) rings: [Ring; 2],
-}
+/// Most spans of equal length.
+const MOST_EQUAL_SPANS: usize = 128;
+/// Spans at which to give up.
+const MOST_SPANS: usize = 1000;
 
 /// Names of the eight faces, from those of the front and the back closure.
 pub(super) fn segment_names(chamber: &str, front: &str, back: &str) -> [String; SEGMENTS] {
@@ -72,7 +69,7 @@ pub(super) fn add_chamber(
     chamber: &str,
     names: [String; SEGMENTS],
     sections: &[RingSection<'_>],
-) -> Result<ChamberFaces, BuildError> {
+) -> Result<CutTube, BuildError> {
     let vs: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
     let across = Interpolator::new(3, &vs)?;
     // Corners once a section: both neighbours take the same point, bit for bit.
@@ -108,13 +105,16 @@ pub(super) fn add_chamber(
     let (v0, v1) = (vs[0], vs[last]);
     let mut faces = Vec::with_capacity(SEGMENTS);
     for (k, (surface, name)) in surfaces.into_iter().zip(names).enumerate() {
-        let line = |a: (f64, f64), b: (f64, f64)| Curve::segment(DVec2::new(a.0, a.1), DVec2::new(b.0, b.1));
-        let upright = |u: f64| line((u, v0), (u, v1)).reparameterized(v0, v1);
+        let line = |start: (f64, f64), end: (f64, f64), domain: (f64, f64)| {
+            straight_pcurve(DVec2::from(start), DVec2::from(end), domain)
+        };
+        let along = |v: f64| line((0.0, v), (1.0, v), (0.0, 1.0));
+        let upright = |u: f64| line((u, v0), (u, v1), (v0, v1));
         let coedges = vec![
-            Coedge { edge: rings[0].edges[k].0, forward: true, pcurve: line((0.0, v0), (1.0, v0)) },
-            Coedge { edge: uprights[(k + 1) % SEGMENTS], forward: true, pcurve: upright(1.0) },
-            Coedge { edge: rings[1].edges[k].0, forward: false, pcurve: line((0.0, v1), (1.0, v1)) },
-            Coedge { edge: uprights[k], forward: false, pcurve: upright(0.0) },
+            Coedge { edge: rings[0].edges[k].0, forward: true, pcurve: along(v0)? },
+            Coedge { edge: uprights[(k + 1) % SEGMENTS], forward: true, pcurve: upright(1.0)? },
+            Coedge { edge: rings[1].edges[k].0, forward: false, pcurve: along(v1)? },
+            Coedge { edge: uprights[k], forward: false, pcurve: upright(0.0)? },
         ];
         let surface = SurfaceGeometry::BSpline(surface);
         faces.push(model.add_face(Face {
@@ -124,7 +124,7 @@ pub(super) fn add_chamber(
             style: style.clone(),
         }));
     }
-    Ok(ChamberFaces { faces, rings })
+    Ok(CutTube { faces, rings })
 }
 
 /// The curve of the control points in column `j`: the border of a clamped surface.
@@ -150,41 +150,73 @@ fn section_curve(
     Ok(along.interpolator.curve_with_slopes(&points, start, end)?)
 }
 
-/// Equal steps in [0, 1] and the cubic interpolation over them.
+/// Increasing parameters in [0, 1] and the cubic interpolation over them.
 struct Nodes {
     parameters: Vec<f64>,
     interpolator: Interpolator,
 }
 
 impl Nodes {
-    fn new(spans: usize) -> Result<Self, BuildError> {
-        let parameters: Vec<f64> = (0..=spans).map(|i| i as f64 / spans as f64).collect();
+    fn new(parameters: Vec<f64>) -> Result<Self, BuildError> {
         let interpolator = Interpolator::with_slopes(&parameters)?;
         Ok(Self { parameters, interpolator })
     }
-}
 
-/// As few equal spans as keep segment `k` of the first, middle and last section within the tolerances: the error
-/// falls with the fourth power of the step, so two trials tell.
-fn section_interpolator(sections: &[RingSection<'_>], k: usize) -> Result<Nodes, BuildError> {
-    let judged = [0, sections.len() / 2, sections.len() - 1];
-    let mut spans = 6;
-    loop {
-        let nodes = Nodes::new(spans)?;
-        let mut ratio = 0.0f64;
-        for i in judged {
-            let curve = section_curve(&nodes, &sections[i], k, None)?;
-            for pair in nodes.parameters.windows(2) {
+    fn equal(spans: usize) -> Result<Self, BuildError> {
+        Self::new((0..=spans).map(|i| i as f64 / spans as f64).collect())
+    }
+
+    /// Errors of segment `k` of the judged sections in the middle of each span, relative to the tolerances.
+    fn errors(&self, judged: &[&RingSection<'_>], k: usize) -> Result<Vec<f64>, BuildError> {
+        let mut worst = vec![0.0f64; self.parameters.len() - 1];
+        for section in judged {
+            let curve = section_curve(self, section, k, None)?;
+            for (pair, worst) in self.parameters.windows(2).zip(&mut worst) {
                 let t = 0.5 * (pair[0] + pair[1]);
-                let (point, exact) = (curve.point(t), sections[i].evaluate(k, t).0);
-                let (level, gradient) = sections[i].stream.level(point);
+                let (point, exact) = (curve.point(t), section.evaluate(k, t).0);
+                let (level, gradient) = section.stream.level(point);
                 let off = level.abs() / gradient.length();
-                ratio = ratio.max(point.distance(exact) / SHAPE_TOLERANCE).max(off / EDGE_TOLERANCE);
+                *worst = worst.max(point.distance(exact) / SHAPE_TOLERANCE).max(off / EDGE_TOLERANCE);
             }
         }
-        if ratio <= 1.0 || spans >= MOST_SPANS {
+        Ok(worst)
+    }
+
+    /// The spans with an error above 1 cut into halves.
+    fn refined(&self, errors: &[f64]) -> Result<Self, BuildError> {
+        let mut parameters = vec![self.parameters[0]];
+        for (pair, error) in self.parameters.windows(2).zip(errors) {
+            if *error > 1.0 {
+                parameters.push(0.5 * (pair[0] + pair[1]));
+            }
+            parameters.push(pair[1]);
+        }
+        Self::new(parameters)
+    }
+}
+
+/// As few spans as keep segment `k` of the first, middle and last section within the tolerances. Equal spans while
+/// that is cheap: the error falls with the fourth power of the step, so two trials tell. Then halves where it misses,
+/// which is where the outline's third derivative jumps.
+fn section_interpolator(sections: &[RingSection<'_>], k: usize) -> Result<Nodes, BuildError> {
+    let judged = [0, sections.len() / 2, sections.len() - 1].map(|i| &sections[i]);
+    let mut nodes = Nodes::equal(6)?;
+    loop {
+        let errors = nodes.errors(&judged, k)?;
+        let ratio = errors.iter().fold(0.0, |a: f64, b| a.max(*b));
+        if ratio <= 1.0 {
             return Ok(nodes);
         }
-        spans = ((spans as f64 * 1.05 * ratio.powf(0.25)).ceil() as usize).clamp(spans + 1, MOST_SPANS);
+        let spans = errors.len();
+        let wanted = ((spans as f64 * 1.05 * ratio.powf(0.25)).ceil() as usize).max(spans + 1);
+        nodes = if spans < MOST_EQUAL_SPANS {
+            Nodes::equal(wanted.min(MOST_EQUAL_SPANS))?
+        } else if spans < MOST_SPANS {
+            nodes.refined(&errors)?
+        } else {
+            return Err(
+                NurbsError::NotFound { what: "a cubic for a chamber's section within 1e-8 mm" }.into()
+            );
+        };
     }
 }

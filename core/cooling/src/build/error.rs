@@ -20,6 +20,8 @@ pub enum BuildError {
         /// Span fraction of the stream surface.
         v: f64,
     },
+    /// A face that its edges do not bound.
+    Topology(coolinggen_brep::BuildError),
     /// A kernel method.
     Kernel(NurbsError),
 }
@@ -27,17 +29,46 @@ pub enum BuildError {
 impl BuildError {
     /// A refusal at span fraction `v`, blamed on the parameter at `pointer`.
     pub(super) fn refused(pointer: &str, v: f64, refusal: &Refusal) -> Self {
+        Self::Refused(vec![Self::fault(pointer, v, refusal)])
+    }
+
+    /// The fault for a refusal at span fraction `v`.
+    pub(super) fn fault(pointer: &str, v: f64, refusal: &Refusal) -> Fault {
         let message = format!("at span fraction {v:.4}: {refusal}");
         let fault = Fault::new(pointer, "geometry", message).unit("mm");
-        let fault = match refusal {
+        match refusal {
             Refusal::ChamberVanishes { radius, needed } => {
                 fault.value(*needed).max(*radius).hint("a thinner shell, or smaller radii, leave the room")
             }
             Refusal::FilletTooLarge { radius, greatest, .. } => fault.value(*radius).max(*greatest),
             Refusal::ChamberTooShort { length } => fault.value(*length).min(0.0),
+            Refusal::NoseTooSharp => fault.hint("a thinner shell at the nose, or a greater fillet radius"),
             Refusal::NoInscribedCircle | Refusal::WallOutside { .. } => fault,
-        };
-        Self::Refused(vec![fault])
+        }
+    }
+
+    /// Refusals with one fault a parameter: the section where it is worst says most; how many others there are is
+    /// added.
+    pub(super) fn worst(faults: Vec<Fault>) -> Self {
+        let mut kept: Vec<(Fault, usize)> = Vec::new();
+        for fault in faults {
+            match kept.iter_mut().find(|(k, _)| k.pointer == fault.pointer) {
+                None => kept.push((fault, 1)),
+                Some((worst, count)) => {
+                    *count += 1;
+                    if excess(&fault) > excess(worst) {
+                        *worst = fault;
+                    }
+                }
+            }
+        }
+        let counted = kept.into_iter().map(|(mut fault, count)| {
+            if count > 1 {
+                fault.message = format!("{} (worst of {count} sections)", fault.message);
+            }
+            fault
+        });
+        Self::Refused(counted.collect())
     }
 
     /// The failure as faults of the design.
@@ -48,6 +79,12 @@ impl BuildError {
             other => vec![Fault::new("", "geometry", other.to_string())],
         }
     }
+}
+
+/// How far a fault's value is beyond its limits.
+fn excess(fault: &Fault) -> f64 {
+    let value = fault.value.as_ref().and_then(serde_json::Value::as_f64).unwrap_or(0.0);
+    fault.max.map_or(0.0, |m| value - m) + fault.min.map_or(0.0, |m| m - value)
 }
 
 impl fmt::Display for BuildError {
@@ -63,6 +100,7 @@ impl fmt::Display for BuildError {
             Self::NoCrossing { face, v } => {
                 write!(f, "{face} does not cross the stream surface at span fraction {v}")
             }
+            Self::Topology(error) => error.fmt(f),
             Self::Kernel(error) => error.fmt(f),
         }
     }
@@ -73,6 +111,12 @@ impl std::error::Error for BuildError {}
 impl From<BladeError> for BuildError {
     fn from(error: BladeError) -> Self {
         Self::Blade(error)
+    }
+}
+
+impl From<coolinggen_brep::BuildError> for BuildError {
+    fn from(error: coolinggen_brep::BuildError) -> Self {
+        Self::Topology(error)
     }
 }
 

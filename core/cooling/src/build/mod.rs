@@ -2,6 +2,7 @@
 
 mod assemble;
 mod bitangent;
+mod bridge;
 mod cap;
 mod chambers;
 mod clearance;
@@ -11,6 +12,7 @@ mod probe;
 mod radial_holes;
 mod sections;
 mod shell;
+mod stack;
 mod style;
 mod tube;
 

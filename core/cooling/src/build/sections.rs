@@ -119,6 +119,11 @@ impl Section {
         Ok(Self { stream, outline, blade_v, camber })
     }
 
+    /// Greatest step of marching the camber of an offset.
+    pub(super) fn march_step(&self) -> f64 {
+        self.camber.length() / 100.0
+    }
+
     /// Length ratio of space to chart at a point.
     pub(super) fn scale(&self, q: DVec2) -> f64 {
         self.stream.scale(q)

@@ -5,7 +5,7 @@ use super::cap::Ring;
 use super::error::BuildError;
 use coolinggen_blade::StreamSurface;
 use coolinggen_brep::{
-    Coedge, EdgeCurve, EdgeId, Face, FaceId, Loop, Model, Style, SurfaceGeometry, VertexId,
+    Coedge, EdgeCurve, EdgeId, Face, FaceId, Loop, Model, Style, SurfaceGeometry, VertexId, straight_pcurve,
 };
 use coolinggen_nurbs::{
     Curve, Interpolator, Knots, NurbsError, ParametricCurve, ParametricSurface, RationalCurve,
@@ -83,11 +83,14 @@ pub(super) fn add_tube(
         let ((u0, u1), _) = patch.surface.domain();
         let (left, span) = uprights[k];
         let (right, right_span) = uprights[(k + 1) % count];
+        let upright = |u: f64, [start, end]: [f64; 2]| {
+            straight_pcurve(DVec2::new(u, start), DVec2::new(u, end), (start, end))
+        };
         let coedges = vec![
             Coedge { edge: ring_edges[0][k], forward: true, pcurve: low.pcurve },
-            Coedge { edge: right, forward: true, pcurve: upright(u1, right_span) },
+            Coedge { edge: right, forward: true, pcurve: upright(u1, right_span)? },
             Coedge { edge: ring_edges[1][k], forward: false, pcurve: high.pcurve },
-            Coedge { edge: left, forward: false, pcurve: upright(u0, span) },
+            Coedge { edge: left, forward: false, pcurve: upright(u0, span)? },
         ];
         faces.push(model.add_face(Face {
             name: patch.name,
@@ -98,11 +101,6 @@ pub(super) fn add_tube(
     }
     let rings = ring_edges.map(|edges| Ring { edges: edges.into_iter().map(|e| (e, true)).collect() });
     Ok(CutTube { faces, rings })
-}
-
-/// The straight parameter curve of an upright edge, which has the domain `span`.
-fn upright(u: f64, span: [f64; 2]) -> Curve<DVec2> {
-    Curve::segment(DVec2::new(u, span[0]), DVec2::new(u, span[1])).reparameterized(span[0], span[1])
 }
 
 /// The line of constant u between two values of v, exact, with the vertices' points at its ends.
@@ -128,7 +126,7 @@ fn upright_curve(
 }
 
 /// The curve with its end points replaced by those of the vertices, which it meets within rounding.
-pub(super) fn with_ends(curve: &Curve<DVec3>, start: DVec3, end: DVec3) -> Curve<DVec3> {
+fn with_ends(curve: &Curve<DVec3>, start: DVec3, end: DVec3) -> Curve<DVec3> {
     let last = curve.points().len() - 1;
     let mut index = 0;
     curve.map(|&p| {
@@ -145,12 +143,7 @@ pub(super) fn with_ends(curve: &Curve<DVec3>, start: DVec3, end: DVec3) -> Curve
 }
 
 /// Parameter v at which the line of constant u meets a stream surface.
-pub(super) fn meet(
-    surface: &impl ParametricSurface<DVec3>,
-    u: f64,
-    guess: f64,
-    stream: &StreamSurface,
-) -> Option<f64> {
+fn meet(surface: &impl ParametricSurface<DVec3>, u: f64, guess: f64, stream: &StreamSurface) -> Option<f64> {
     let (_, (low, high)) = surface.domain();
     let mut v = guess;
     for _ in 0..40 {

@@ -64,6 +64,18 @@ pub struct ChamberRing {
     pub segments: [Segment; SEGMENTS],
 }
 
+impl ChamberRing {
+    /// Parameters of the outline at which the two sides begin and end.
+    pub fn sides(&self) -> [f64; 4] {
+        let ends = |segment: &Segment| match *segment {
+            Segment::Side { from, to } => [from, to],
+            Segment::Arc { .. } | Segment::Line { .. } => [f64::NAN; 2],
+        };
+        let ([a, b], [c, d]) = (ends(&self.segments[0]), ends(&self.segments[4]));
+        [a, b, c, d]
+    }
+}
+
 /// Builds a chamber's ring.
 ///
 /// # Errors

@@ -18,3 +18,4 @@ pub use chamber::{ChamberRing, ClosureKind, RingRequest, SEGMENTS, WallRequest, 
 pub use outline::{Frame, Outline};
 pub use refusal::Refusal;
 pub use segment::Segment;
+pub(crate) use segment::angle_between;

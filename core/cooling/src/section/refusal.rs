@@ -33,6 +33,8 @@ pub enum Refusal {
         /// Length left along the shorter side, negative.
         length: f64,
     },
+    /// The circle that ends the leading chamber touches the shell where the blade is too sharp for it.
+    NoseTooSharp,
 }
 
 impl fmt::Display for Refusal {
@@ -48,6 +50,9 @@ impl fmt::Display for Refusal {
                 "the fillets of radius {radius:.3} mm overlap at wall {wall}; about {greatest:.3} mm would fit"
             ),
             Self::WallOutside { wall } => write!(f, "wall {wall} does not meet both sides of the chamber"),
+            Self::NoseTooSharp => {
+                write!(f, "the shell is too thick for the sharpness of the nose where the chamber ends")
+            }
             Self::ChamberTooShort { length } => {
                 write!(f, "the chamber's ends overlap by {:.3} mm", -length)
             }

@@ -86,7 +86,7 @@ impl Segment {
 }
 
 /// Signed angle from `a` to `b`, exact for small angles too, where an arc cosine is not.
-pub(super) fn angle_between(a: DVec2, b: DVec2) -> f64 {
+pub(crate) fn angle_between(a: DVec2, b: DVec2) -> f64 {
     a.perp_dot(b).atan2(a.dot(b))
 }
 
