@@ -4,6 +4,7 @@ use coolinggen_blade::{Blade, BladeSurface, Law, Pointer, Region};
 use coolinggen_cooling::design::Design;
 use coolinggen_cooling::{Generated, generate};
 use coolinggen_nurbs::{ParametricSurface, SurfaceProjector};
+use serde_json::json;
 use std::path::Path;
 
 fn sample(name: &str) -> serde_json::Value {
@@ -57,7 +58,7 @@ fn check_sides(design: &Design, generated: &Generated) {
             checked += 1;
         }
     }
-    assert_eq!(checked, 6 * 2000);
+    assert_eq!(checked, 2 * 2000 * design.cooling.as_ref().unwrap().chambers.len());
 }
 
 #[test]
@@ -89,4 +90,33 @@ fn on_leaned_blades() {
         assert!(generated.report.watertight, "{degrees} degrees");
         assert!(generated.report.max_edge_deviation_mm < 3e-8, "{degrees} degrees");
     }
+}
+
+/// The rotor with one chamber inside a shell of one thickness.
+fn hollow(thickness: f64) -> serde_json::Value {
+    let mut design = sample("rotor.json");
+    let cooling = &mut design["cooling"];
+    cooling["shell"] = json!({ "suction_side": thickness, "pressure_side": thickness, "tip": 1.2 });
+    cooling["walls"] = json!([]);
+    cooling["chambers"] = json!([{ "name": "one", "fillet_radius": 0.4 }]);
+    design
+}
+
+/// From where the chamber follows the nose, over where it does in some sections and is rounded in others, to where it
+/// is rounded in all and its offset would cross itself at both ends.
+#[test]
+fn until_the_chamber_vanishes() {
+    for tenths in [3, 9, 14, 15, 16, 17, 19, 22, 25, 28, 30] {
+        let thickness = f64::from(tenths) / 10.0;
+        let (design, generated) = build(&hollow(thickness));
+        check_sides(&design, &generated);
+        assert!(generated.report.watertight, "{thickness} mm");
+        assert!(generated.report.max_edge_deviation_mm < 3e-8, "{thickness} mm");
+    }
+    let design = Design::from_json(&hollow(3.5).to_string()).unwrap();
+    let faults = generate(&design, Path::new(".")).unwrap_err();
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    assert_eq!(faults[0].pointer, "/cooling/shell");
+    assert!(faults[0].message.contains("span fraction"), "{}", faults[0].message);
+    assert!(faults[0].max.unwrap() < 0.4 && faults[0].value == Some(0.4.into()), "{:?}", faults[0]);
 }

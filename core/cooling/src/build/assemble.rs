@@ -24,6 +24,10 @@ pub struct CooledBlade {
     pub passage_faces: Vec<FaceId>,
     /// Hub and tip face of the metal.
     pub end_faces: [FaceId; 2],
+    /// Faces that end a passage below the tip (1) or above the hub (0).
+    pub closed_ends: Vec<(FaceId, usize)>,
+    /// The stream surfaces of hub and tip.
+    pub end_surfaces: [StreamSurface; 2],
     /// The radial holes.
     pub radial_holes: Vec<RadialHoleGeometry>,
 }
@@ -66,8 +70,16 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         }
     }
     let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
-    let end_faces = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
-    Ok(CooledBlade { model, outer_faces: outer.faces, passage_faces, end_faces, radial_holes })
+    let (end_faces, closed_ends) = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
+    Ok(CooledBlade {
+        model,
+        outer_faces: outer.faces,
+        passage_faces,
+        end_faces,
+        closed_ends,
+        end_surfaces: ends,
+        radial_holes,
+    })
 }
 
 /// The outer surface, a face a region, cut at hub and tip. A region is parted where the surface is only continuous: a
@@ -94,7 +106,7 @@ fn add_blade(model: &mut Model, blade: &Blade, ends: [&StreamSurface; 2]) -> Res
     add_tube(model, patches, ends)
 }
 
-/// Caps and solids.
+/// Caps and solids; answers with hub and tip face and the faces of closed ends.
 fn add_solids(
     model: &mut Model,
     blade: &Blade,
@@ -102,7 +114,8 @@ fn add_solids(
     ends: &[StreamSurface; 2],
     outer: &CutTube,
     passages: &[Passage],
-) -> Result<[FaceId; 2], BuildError> {
+) -> Result<([FaceId; 2], Vec<(FaceId, usize)>), BuildError> {
+    let mut closed_ends = Vec::new();
     let mut metal = Shell::default();
     let mut voids = Vec::new();
     let mut coolants = Vec::new();
@@ -139,6 +152,7 @@ fn add_solids(
                 openings[side].push(passage.rings[side].clone());
             } else {
                 own.faces.push(FaceUse { face: cap, forward: !forward });
+                closed_ends.push((cap, side));
             }
         }
         if open[0] || open[1] {
@@ -165,5 +179,5 @@ fn add_solids(
     shells.extend(voids);
     model.solids.push(Solid { name: "metal".into(), shells, expected_genus: through });
     model.solids.extend(coolants);
-    Ok(end_faces)
+    Ok((end_faces, closed_ends))
 }

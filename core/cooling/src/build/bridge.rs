@@ -3,70 +3,188 @@
 //! Where a leading chamber follows the offset round the nose, its faces end at the joints of the leading edge and are
 //! smooth inside. An arc of given radius may touch the offset before a joint in one section and behind it in the next;
 //! then the jump of curvature at the joint would wander through the side faces. So it is spread over a short length.
+//! The same holds for the arc's own ends where some sections have an arc and others, blunter ones, have none.
 
 use super::error::BuildError;
 use super::sections::{Grid, Section};
 use super::shell::{EndRadii, OffsetSection};
-use crate::section::{Camber, Outline, angle_between};
+use crate::section::{Camber, Contact, Outline, Refusal, angle_between, circle_of_radius};
 use coolinggen_nurbs::{Interpolator, ParametricCurve};
+use glam::DVec2;
+use std::ops::RangeInclusive;
 
-/// Length to either side of a joint over which the jump of curvature is spread, relative to the distance between the
-/// profile and its offset. It changes the thickness there by less than a percent.
+/// Length to either side of a jump of curvature over which it is spread, relative to the distance between the profile
+/// and its offset. It changes the thickness there by less than a percent.
 const REACH: f64 = 0.1;
 
-/// The section with its outline parametrised by about its length in the chart, twice continuously differentiable, and
-/// bridging what is too sharp for the chamber's front.
-pub(super) fn bridged(
+/// An offset parametrised by about its length in the chart, twice continuously differentiable, and bridging what is
+/// too sharp for the chamber's front.
+#[derive(Clone, Debug)]
+pub(super) struct Bridged {
+    pub(super) offset: OffsetSection,
+    /// Parameters u of the grid and lengths that belong together.
+    pairs: Vec<(f64, f64)>,
+}
+
+impl Bridged {
+    /// Bridges the joints of the leading edge and the sharp part of the nose.
+    pub(super) fn new(
+        grid: &Grid,
+        section: &Section,
+        offset: &OffsetSection,
+        ends: EndRadii,
+    ) -> Result<Self, BuildError> {
+        let radii = ends.in_chart(section);
+        let lost = too_sharp(grid, section, offset, radii.0);
+        let (start, end) = grid.leading_edge;
+        let joints = [start, end].map(|joint| {
+            let at = offset.outline.curve().point(joint);
+            (joint, at, REACH * at.distance(section.outline.curve().point(joint)))
+        });
+        let mut kept = Vec::new();
+        let mut nodes = Vec::new();
+        for &u in &grid.nodes {
+            let point = offset.outline.curve().point(u);
+            let near = |(joint, at, reach): &(f64, DVec2, f64)| {
+                (u - joint).abs() < 0.5 * (end - start) && point.distance(*at) < *reach
+            };
+            if !joints.iter().any(near) && !lost.as_ref().is_some_and(|lost| lost.contains(&u)) {
+                kept.push(u);
+                nodes.push((point, offset.outline.frame(u).tangent));
+            }
+        }
+        let (outline, lengths) = through(&nodes, offset.outline.inward())?;
+        let pairs: Vec<(f64, f64)> = kept.into_iter().zip(lengths).collect();
+        let camber = camber(grid, section, &outline, &pairs, radii)?;
+        // Where it exists the plain offset's circle is the better start: the bridge may have changed the front.
+        let near = offset.circle.as_ref().map(|c| Contact {
+            suction: length_at(&pairs, c.suction),
+            pressure: length_at(&pairs, c.pressure),
+            ..*c
+        });
+        let circle = circle_of_radius(&outline, near.as_ref().unwrap_or(camber.front()), radii.0);
+        let sharp_nose = lost.map(|lost| length_at(&pairs, *lost.start())..=length_at(&pairs, *lost.end()));
+        Ok(Self { offset: OffsetSection { outline, camber, sharp_nose, circle }, pairs })
+    }
+
+    /// Where the end circle touches, in the grid's parameters, and a little behind: (pressure side, suction side).
+    pub(super) fn contacts(&self) -> Option<(f64, f64)> {
+        let circle = self.offset.circle.as_ref()?;
+        let reach = 2.0 * REACH * circle.radius;
+        let u_at = |length: f64| mapped(&self.pairs, length, |p| p.1, |p| p.0);
+        Some((u_at(circle.pressure - reach), u_at(circle.suction + reach)))
+    }
+
+    /// The offset with its nose opened by the end circle, and where the parameters `ends` of the grid lie on it. Without
+    /// a circle the nose is left as it is.
+    pub(super) fn opened(
+        &self,
+        grid: &Grid,
+        section: &Section,
+        radii: EndRadii,
+        ends: (f64, f64),
+    ) -> Result<(OffsetSection, (f64, f64)), BuildError> {
+        const ARC_NODES: u32 = 24;
+        let v = section.stream.v();
+        let too_sharp = || BuildError::refused("/cooling/chambers/0", v, &Refusal::NoseTooSharp);
+        let Some(circle) = &self.offset.circle else {
+            let ends = (length_at(&self.pairs, ends.0), length_at(&self.pairs, ends.1));
+            return if self.offset.sharp_nose.is_none() {
+                Ok((self.offset.clone(), ends))
+            } else {
+                Err(too_sharp())
+            };
+        };
+        if !self.offset.circle_is_clear() {
+            return Err(too_sharp());
+        }
+        let outline = &self.offset.outline;
+        let reach = REACH * circle.radius;
+        let (mut kept, mut nodes) = (Vec::new(), Vec::new());
+        let mut keep = |pairs: &mut dyn Iterator<Item = &(f64, f64)>, nodes: &mut Vec<(DVec2, DVec2)>| {
+            for &(u, length) in pairs {
+                let frame = outline.frame(length);
+                kept.push((u, nodes.len()));
+                nodes.push((frame.point, frame.tangent));
+            }
+        };
+        keep(&mut self.pairs.iter().filter(|p| p.1 < circle.pressure - reach), &mut nodes);
+        // The arc runs from the pressure side to the suction side, round the front.
+        let [from, to] = [circle.pressure, circle.suction]
+            .map(|length| (outline.frame(length).point - circle.center).normalize());
+        let sweep = angle_between(from, -circle.tangent) + angle_between(-circle.tangent, to);
+        for i in 1..ARC_NODES {
+            let direction = DVec2::from_angle(sweep * f64::from(i) / f64::from(ARC_NODES)).rotate(from);
+            nodes.push((circle.center + direction * circle.radius, direction.perp() * sweep.signum()));
+        }
+        keep(&mut self.pairs.iter().filter(|p| p.1 > circle.suction + reach), &mut nodes);
+        let (outline, lengths) = through(&nodes, outline.inward())?;
+        let pairs: Vec<(f64, f64)> = kept.into_iter().map(|(u, node)| (u, lengths[node])).collect();
+        let camber = camber(grid, section, &outline, &pairs, radii.in_chart(section))?;
+        let ends = (length_at(&pairs, ends.0), length_at(&pairs, ends.1));
+        Ok((OffsetSection { outline, camber, sharp_nose: None, circle: None }, ends))
+    }
+}
+
+/// The parameters u about the nose where the offset is too sharp for an end circle of `radius`, or turns back.
+fn too_sharp(
     grid: &Grid,
     section: &Section,
     offset: &OffsetSection,
-    ends: EndRadii,
-) -> Result<OffsetSection, BuildError> {
-    let outline = &offset.outline;
-    let radii = ends.in_chart(section);
-    let points: Vec<_> = grid.nodes.iter().map(|&u| outline.curve().point(u)).collect();
+    radius: f64,
+) -> Option<RangeInclusive<f64>> {
     let (start, end) = grid.leading_edge;
-    let sharp = |u: f64| {
-        let inside = u.clamp(start + 1e-9 * (end - start), end - 1e-9 * (end - start));
-        let (inner, outer) = (outline.frame(inside), section.outline.frame(inside));
-        let degenerate =
-            inner.derivative.dot(outer.derivative) <= 0.0 || outline.curvature(inside) * radii.0 >= 2.0;
-        degenerate || offset.sharp_nose.as_ref().is_some_and(|s| s.contains(&u))
-    };
+    let inside = 1e-9 * (end - start);
     let mut lost = offset.sharp_nose.clone();
-    for &u in grid.nodes.iter().filter(|u| (start..=end).contains(u)).filter(|u| sharp(**u)) {
-        lost = Some(lost.map_or(u..=u, |l| l.start().min(u)..=l.end().max(u)));
+    for &node in grid.nodes.iter().filter(|u| (start..=end).contains(*u)) {
+        let u = node.clamp(start + inside, end - inside);
+        let (inner, outer) = (offset.outline.frame(u), section.outline.frame(u));
+        if inner.derivative.dot(outer.derivative) <= 0.0 || offset.outline.curvature(u) * radius >= 2.0 {
+            lost = Some(lost.map_or(node..=node, |l| l.start().min(node)..=l.end().max(node)));
+        }
     }
-    let near_joint = |i: usize| {
-        [start, end].into_iter().any(|joint| {
-            let at = outline.curve().point(joint);
-            let reach = REACH * at.distance(section.outline.curve().point(joint));
-            (grid.nodes[i] - joint).abs() < 0.5 * (end - start) && points[i].distance(at) < reach
-        })
-    };
-    let kept: Vec<usize> = (0..points.len())
-        .filter(|&i| !near_joint(i) && !lost.as_ref().is_some_and(|l| l.contains(&grid.nodes[i])))
-        .collect();
+    lost
+}
+
+/// The smooth curve through points with their unit tangents, by about its length, and the lengths at the points.
+fn through(nodes: &[(DVec2, DVec2)], inward: f64) -> Result<(Outline, Vec<f64>), BuildError> {
     let mut lengths = vec![0.0];
-    for pair in kept.windows(2) {
-        let chord = points[pair[0]].distance(points[pair[1]]);
-        let tangents = [pair[0], pair[1]].map(|i| outline.frame(grid.nodes[i]).tangent);
-        let half = 0.5 * angle_between(tangents[0], tangents[1]);
+    for pair in nodes.windows(2) {
+        let chord = pair[0].0.distance(pair[1].0);
+        let half = 0.5 * angle_between(pair[0].1, pair[1].1);
         // The length of an arc that turns as far.
         let stretch = if half.abs() > 1e-6 { half / half.sin() } else { 1.0 };
         lengths.push(lengths[lengths.len() - 1] + chord * stretch);
     }
-    let kept_points: Vec<_> = kept.iter().map(|&i| points[i]).collect();
-    let curve = Interpolator::new(3, &lengths)?.curve(&kept_points)?;
-    let length_at = |u: f64| {
-        let k = kept.partition_point(|&i| grid.nodes[i] <= u).clamp(1, kept.len() - 1);
-        let (low, high) = (grid.nodes[kept[k - 1]], grid.nodes[kept[k]]);
-        lengths[k - 1] + (lengths[k] - lengths[k - 1]) * (u - low) / (high - low)
-    };
-    let outline = Outline::new(curve, outline.inward());
-    let joints = (length_at(start), length_at(end));
-    let camber = Camber::of(&outline, length_at(grid.nose), joints, radii, section.march_step())
-        .map_err(|refusal| BuildError::refused("/cooling/shell", section.stream.v(), &refusal))?;
-    let sharp_nose = lost.map(|l| length_at(*l.start())..=length_at(*l.end()));
-    Ok(OffsetSection { outline, camber, sharp_nose })
+    let points: Vec<DVec2> = nodes.iter().map(|n| n.0).collect();
+    Ok((Outline::new(Interpolator::new(3, &lengths)?.curve(&points)?, inward), lengths))
+}
+
+fn camber(
+    grid: &Grid,
+    section: &Section,
+    outline: &Outline,
+    pairs: &[(f64, f64)],
+    radii: (f64, f64),
+) -> Result<Camber, BuildError> {
+    let joints = (length_at(pairs, grid.leading_edge.0), length_at(pairs, grid.leading_edge.1));
+    Camber::of(outline, length_at(pairs, grid.nose), joints, radii, section.march_step())
+        .map_err(|refusal| BuildError::refused("/cooling/shell", section.stream.v(), &refusal))
+}
+
+/// The length at the grid's parameter u.
+fn length_at(pairs: &[(f64, f64)], u: f64) -> f64 {
+    mapped(pairs, u, |p| p.0, |p| p.1)
+}
+
+/// The piecewise linear function through pairs, from one of their members to the other.
+fn mapped(
+    pairs: &[(f64, f64)],
+    x: f64,
+    from: impl Fn(&(f64, f64)) -> f64,
+    to: impl Fn(&(f64, f64)) -> f64,
+) -> f64 {
+    let k = pairs.partition_point(|p| from(p) <= x).clamp(1, pairs.len() - 1);
+    let (low, high) = (&pairs[k - 1], &pairs[k]);
+    to(low) + (to(high) - to(low)) * (x - from(low)) / (from(high) - from(low))
 }

@@ -6,7 +6,7 @@ use super::clearance::ChamberPolygon;
 use super::error::BuildError;
 use super::stack::Stack;
 use crate::plan::Plan;
-use crate::section::{ChamberRing, ClosureKind, Refusal, RingRequest, WallRequest, chamber_ring};
+use crate::section::{ClosureKind, Refusal, RingRequest, WallRequest, chamber_ring};
 use coolinggen_blade::{Blade, Fault};
 use coolinggen_brep::{FaceId, Model};
 
@@ -69,7 +69,10 @@ fn chamber_rings<'s>(stack: &'s Stack, plan: &Plan, k: usize) -> (Vec<RingSectio
         let (section, offset) = (&stack.sections[i], &stack.offsets[i]);
         let [front, back] = closures(stack, plan, k, i);
         let request = RingRequest { outline: &offset.outline, camber: &offset.camber, front, back };
-        let ring = chamber_ring(&request).and_then(|ring| clear_of_sharp_nose(stack, k, i, ring));
+        let ring = match k {
+            0 if !offset.circle_is_clear() => Err(Refusal::NoseTooSharp),
+            _ => chamber_ring(&request),
+        };
         match ring {
             Ok(ring) => rings.push(RingSection { stream: &section.stream, outline: &offset.outline, ring }),
             Err(refusal) => {
@@ -98,18 +101,14 @@ fn closures(stack: &Stack, plan: &Plan, k: usize, i: usize) -> [ClosureKind; 2] 
     };
     let rounded = |at: glam::DVec2| ClosureKind::Rounded { radius: radius / section.scale(at) };
     let front = match k {
-        0 if stack.natural_nose => ClosureKind::Natural { leading_edge: stack.leading_edge },
-        0 => rounded(offset.camber.front().center),
+        0 => match &stack.nose {
+            Some(ends) => ClosureKind::Natural { ends: ends[i] },
+            None => rounded(offset.camber.front().center),
+        },
         _ => wall(k - 1),
     };
     let back = if k + 1 == plan.chambers.len() { rounded(offset.camber.back().center) } else { wall(k) };
     [front, back]
-}
-
-/// Passes a ring on if its sides begin behind the part of the nose that is too sharp for the shell.
-fn clear_of_sharp_nose(stack: &Stack, k: usize, i: usize, ring: ChamberRing) -> Result<ChamberRing, Refusal> {
-    let (true, Some(sharp)) = (k == 0, &stack.offsets[i].sharp_nose) else { return Ok(ring) };
-    if ring.sides().iter().all(|u| !sharp.contains(u)) { Ok(ring) } else { Err(Refusal::NoseTooSharp) }
 }
 
 /// The parameter to blame for a chamber's refusal.

@@ -3,7 +3,7 @@
 use super::error::BuildError;
 use super::sections::{Grid, Section};
 use crate::plan::ShellPlan;
-use crate::section::{Camber, Outline, Refusal};
+use crate::section::{Camber, Contact, Outline, Refusal, circle_of_radius};
 use coolinggen_blade::{Blade, Fault};
 use coolinggen_nurbs::{Interpolator, ParametricCurve, ParametricSurface};
 use std::ops::RangeInclusive;
@@ -22,6 +22,16 @@ pub(super) struct OffsetSection {
     pub(super) camber: Camber,
     /// Where the outer nose is too sharp for a chamber that follows it; there the outline is not corrected.
     pub(super) sharp_nose: Option<RangeInclusive<f64>>,
+    /// The circle of the leading chamber's end radius at its front; none where the nose is blunter.
+    pub(super) circle: Option<Contact>,
+}
+
+impl OffsetSection {
+    /// Whether that circle touches behind the sharp part of the nose.
+    pub(super) fn circle_is_clear(&self) -> bool {
+        let (Some(circle), Some(sharp)) = (&self.circle, &self.sharp_nose) else { return true };
+        !sharp.contains(&circle.pressure) && !sharp.contains(&circle.suction)
+    }
 }
 
 /// Smallest radii, mm in space, at which marching the offset's camber ends at (front, back).
@@ -55,6 +65,17 @@ pub(super) fn offset_section(
         Camber::of(outline, grid.nose, grid.leading_edge, radii, step).map_err(|refusal| refused(&refusal))
     };
 
+    // Past the thickest circle no chamber is left, and none of what follows has a solution.
+    let thickest = section.camber.contacts().iter().max_by(|a, b| a.radius.total_cmp(&b.radius));
+    if let Some(circle) = thickest {
+        let shell = 0.5 * (shell.pressure_side.at(v) + shell.suction_side.at(v));
+        let (radius, needed) =
+            (circle.radius * section.scale(circle.center) - shell, ends.front.max(ends.back));
+        if radius <= needed {
+            return Err(refused(&Refusal::ChamberVanishes { radius: radius.max(0.0), needed }));
+        }
+    }
+
     // Thickness in the chart, first as if the blade stood upright.
     let frames: Vec<_> = grid.nodes.iter().map(|&u| section.outline.frame(u)).collect();
     let upright: Vec<f64> = asked.iter().zip(&frames).map(|(d, f)| d / section.scale(f.point)).collect();
@@ -65,11 +86,18 @@ pub(super) fn offset_section(
     let mut outline = offset(&upright)?;
     let rough = camber_of(&outline)?;
     let sharp_nose = sharp_nose(blade, grid, section, &asked, ends.front);
+    let ahead = sharp_nose.clone().map(|sharp| {
+        // The chamber begins behind it, where the circle at its front touches, or a little before.
+        let Some(circle) = circle_of_radius(&outline, rough.front(), radii.0) else { return sharp };
+        let slack = |u: f64| 0.05 * upright[0] / section.outline.frame(u).speed;
+        let (pressure, suction) = (circle.pressure, circle.suction);
+        sharp.start().min(pressure + slack(pressure))..=sharp.end().max(suction - slack(suction))
+    });
 
     // Between its end circles the shell governs; beyond them other parts bound the chamber.
     let governs = |u: f64| {
         (rough.back().pressure..=rough.back().suction).contains(&u)
-            && sharp_nose.as_ref().is_none_or(|sharp| !sharp.contains(&u))
+            && ahead.as_ref().is_none_or(|ahead| !ahead.contains(&u))
     };
     let mut parts = grid
         .piece_nodes()
@@ -117,7 +145,8 @@ pub(super) fn offset_section(
         return Err(BuildError::Refused(vec![fault]));
     }
     let camber = camber_of(&outline)?;
-    Ok(OffsetSection { outline, camber, sharp_nose })
+    let circle = circle_of_radius(&outline, camber.front(), radii.0);
+    Ok(OffsetSection { outline, camber, sharp_nose, circle })
 }
 
 /// Where, about the leading edge, the surface of the shell would be sharper than half the fillet radius, or not exist

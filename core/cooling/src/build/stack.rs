@@ -1,6 +1,6 @@
 //! The stack: the sections of a blade over the span, with everything that chambers take from them.
 
-use super::bridge::bridged;
+use super::bridge::Bridged;
 use super::error::BuildError;
 use super::sections::{Grid, Section, WallLine, span_fractions, wall_lines};
 use super::shell::{EndRadii, OffsetSection, offset_section};
@@ -10,8 +10,6 @@ use coolinggen_blade::{Blade, Fault, StreamSpace};
 /// Sections at all span fractions at which a chamber has one.
 #[derive(Clone, Debug)]
 pub(super) struct Stack {
-    /// Leading edge and nodes that all sections share.
-    pub(super) leading_edge: (f64, f64),
     /// Outer profiles.
     pub(super) sections: Vec<Section>,
     /// The shell's inner outlines, one a section.
@@ -20,8 +18,9 @@ pub(super) struct Stack {
     pub(super) walls: Vec<Vec<WallLine>>,
     /// Span ranges of the chambers.
     pub(super) spans: Vec<[f64; 2]>,
-    /// Whether the leading chamber follows the offset profile round the nose.
-    pub(super) natural_nose: bool,
+    /// Where the leading chamber's sides give way to its nose, on the offset of each section; none where an arc that
+    /// touches the sides closes it.
+    pub(super) nose: Option<Vec<(f64, f64)>>,
 }
 
 impl Stack {
@@ -55,13 +54,12 @@ impl Stack {
         if !refusals.is_empty() {
             return Err(BuildError::worst(refusals));
         }
-        let natural_nose = natural_nose(grid, &sections, &offsets, plan, spans[0]);
-        if !natural_nose {
-            for (section, offset) in sections.iter().zip(&mut offsets) {
-                *offset = bridged(grid, section, offset, ends(section))?;
-            }
-        }
-        Ok(Self { leading_edge: grid.leading_edge, sections, offsets, walls, spans, natural_nose })
+        let nose = if natural_nose(grid, &sections, &offsets, plan, spans[0]) {
+            Some(vec![grid.leading_edge; sections.len()])
+        } else {
+            round_noses(grid, &sections, &mut offsets, spans[0], ends)?
+        };
+        Ok(Self { sections, offsets, walls, spans, nose })
     }
 
     /// Indices of the sections within a span range.
@@ -82,12 +80,15 @@ fn spans(
     let top = match shell.tip {
         None => 1.0,
         Some(tip) => {
+            // Stream surfaces are no offsets of each other: the least of the span fractions this far below the tip.
+            const STEPS: u32 = 20;
             let section = Section::new(blade, space, grid, 1.0)?;
-            let at = section.stream.to_space(section.camber.at(0.5).center);
-            let gradient = section.stream.level(at).1;
-            // The span fraction falls by this much a millimetre below the tip.
-            let below = at - gradient.normalize() * tip;
-            let v = space.span_fraction(below)?;
+            let mut v = 1.0f64;
+            for i in 0..=STEPS {
+                let at = section.stream.to_space(section.camber.at(f64::from(i) / f64::from(STEPS)).center);
+                let up = section.stream.level(at).1;
+                v = v.min(space.span_fraction(at - up * tip)?);
+            }
             if !(v > 0.05) {
                 let message = "the tip thickness leaves no room for a chamber";
                 let fault = Fault::new("/cooling/shell/tip", "geometry", message).value(tip).unit("mm");
@@ -123,4 +124,40 @@ fn natural_nose(
         });
         offset.sharp_nose.is_none() && front.radius > 0.5 * radius && regular
     })
+}
+
+/// Gives the leading chamber a nose of its end radius. Where arcs of that radius touch the sides behind the leading edge
+/// in every section, the answer is none: they will close the chamber. Where some touch the leading edge, or a section is
+/// blunter than the arc, all noses run between the same two parameters behind the arcs, and the arcs become part of the
+/// offsets.
+fn round_noses(
+    grid: &Grid,
+    sections: &[Section],
+    offsets: &mut [OffsetSection],
+    span: [f64; 2],
+    radii: impl Fn(&Section) -> EndRadii,
+) -> Result<Option<Vec<(f64, f64)>>, BuildError> {
+    let within = |section: &Section| (span[0]..=span[1]).contains(&section.stream.v());
+    // Arcs that touch behind the joints leave the sides smooth as they are.
+    let behind_joints = |offset: &OffsetSection| {
+        let (pressure, suction) = grid.leading_edge;
+        offset.circle.as_ref().is_some_and(|c| c.pressure < pressure && c.suction > suction)
+    };
+    if sections.iter().zip(&*offsets).all(|(section, offset)| !within(section) || behind_joints(offset)) {
+        return Ok(None);
+    }
+    let bridged: Vec<Bridged> = (sections.iter().zip(&*offsets))
+        .map(|(section, offset)| Bridged::new(grid, section, offset, radii(section)))
+        .collect::<Result<_, _>>()?;
+    let mut ends = grid.leading_edge;
+    for (pressure, suction) in bridged.iter().filter_map(Bridged::contacts) {
+        ends = (ends.0.min(pressure), ends.1.max(suction));
+    }
+    let mut nose = Vec::with_capacity(sections.len());
+    for ((section, offset), bridged) in sections.iter().zip(offsets).zip(&bridged) {
+        let (opened, at) = bridged.opened(grid, section, radii(section), ends)?;
+        *offset = opened;
+        nose.push(at);
+    }
+    Ok(Some(nose))
 }

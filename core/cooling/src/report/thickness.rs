@@ -18,8 +18,8 @@ pub struct ThinnestWall {
     pub face: String,
 }
 
-/// The thinnest wall of every passage face, in the order of the faces: sampled on a grid, then refined on the
-/// thinnest face of all.
+/// The thinnest wall of every passage face, in the order of the faces, and of its closed ends: sampled on a grid, then
+/// refined on the thinnest side face of all.
 pub(super) fn thinnest_walls(blade: &Blade, cooled: &CooledBlade) -> Result<Vec<ThinnestWall>, BuildError> {
     let probe = Probe::new(blade);
     let mut walls = Vec::new();
@@ -32,12 +32,33 @@ pub(super) fn thinnest_walls(blade: &Blade, cooled: &CooledBlade) -> Result<Vec<
         }
         walls.push(wall(face, q, thickness));
     }
+    for &(id, side) in &cooled.closed_ends {
+        walls.push(end_wall(cooled, cooled.model.face(id), side));
+    }
     if let Some((k, id, q)) = least {
         let face = cooled.model.face(id);
         let (q, thickness) = refined(&probe, face, q)?;
         walls[k] = wall(face, q, thickness);
     }
     Ok(walls)
+}
+
+/// Metal between a passage's closed end and the hub (0) or tip (1): both are nearly parallel, so that the face's border
+/// tells.
+fn end_wall(cooled: &CooledBlade, face: &Face, side: usize) -> ThinnestWall {
+    const SAMPLES: u32 = 8;
+    let mut thinnest = ThinnestWall { min: f64::INFINITY, at_mm: [0.0; 3], face: face.name.clone() };
+    for coedge in face.loops.iter().flat_map(|l| &l.coedges) {
+        for i in 0..SAMPLES {
+            let q = coedge.parameter_at(f64::from(i) / f64::from(SAMPLES));
+            let p = face.surface.point(q.x, q.y);
+            let below = cooled.end_surfaces[side].level(p).0 * if side == 1 { -1.0 } else { 1.0 };
+            if below < thinnest.min {
+                thinnest = ThinnestWall { min: below, at_mm: p.to_array(), ..thinnest };
+            }
+        }
+    }
+    thinnest
 }
 
 fn at(walls: &[ThinnestWall], k: usize) -> f64 {

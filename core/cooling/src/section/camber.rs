@@ -236,12 +236,15 @@ impl Camber {
     }
 }
 
-/// The circle of radius `radius` that touches both sides, near `from` (thesis 2.3.5: a fillet of the two sides).
-pub(super) fn circle_of_radius(outline: &Outline, from: &Contact, radius: f64) -> Option<Contact> {
+/// The circle of radius `radius` inside the outline that touches both sides, near `from` (thesis 2.3.5: a fillet of the
+/// two sides).
+pub(crate) fn circle_of_radius(outline: &Outline, from: &Contact, radius: f64) -> Option<Contact> {
     let z = solve_with_fixed(outline, (from.suction, from.pressure, radius), 2, 0.3)?;
     let system = System::new(outline, z.0, z.1, z.2);
-    // Both contacts in one point solve the equations too, for any radius.
-    (system.a.normal.dot(system.b.normal) < NEARLY_ONE_POINT).then(|| system.contact(z))
+    // Both contacts in one point solve the equations too, for any radius; and beyond the end of the medial axis the
+    // contacts change places.
+    let apart = system.a.normal.dot(system.b.normal) < NEARLY_ONE_POINT && z.0 > z.1;
+    (apart && system.margin(radius) > 0.0).then(|| system.contact(z))
 }
 
 /// A first circle: touching the suction side at 40 %, found by trying every point of the pressure side.

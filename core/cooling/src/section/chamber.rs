@@ -15,8 +15,8 @@ pub const SEGMENTS: usize = 8;
 pub enum ClosureKind {
     /// The offset profile runs on round the leading edge (front only).
     Natural {
-        /// Parameters at which the leading edge ends: pressure side, suction side.
-        leading_edge: (f64, f64),
+        /// Parameters at which the sides begin: pressure side, suction side.
+        ends: (f64, f64),
     },
     /// An arc that touches both sides.
     Rounded {
@@ -62,18 +62,6 @@ pub struct RingRequest<'a> {
 pub struct ChamberRing {
     /// Segments in the order of [`SEGMENTS`].
     pub segments: [Segment; SEGMENTS],
-}
-
-impl ChamberRing {
-    /// Parameters of the outline at which the two sides begin and end.
-    pub fn sides(&self) -> [f64; 4] {
-        let ends = |segment: &Segment| match *segment {
-            Segment::Side { from, to } => [from, to],
-            Segment::Arc { .. } | Segment::Line { .. } => [f64::NAN; 2],
-        };
-        let ([a, b], [c, d]) = (ends(&self.segments[0]), ends(&self.segments[4]));
-        [a, b, c, d]
-    }
 }
 
 /// Builds a chamber's ring.

@@ -32,7 +32,7 @@ pub(super) fn closure(
     end: End,
 ) -> Result<Closure, Refusal> {
     match kind {
-        ClosureKind::Natural { leading_edge } => Ok(natural_nose(outline, *leading_edge)),
+        ClosureKind::Natural { ends } => Ok(natural_nose(outline, *ends)),
         ClosureKind::Rounded { radius } => rounded(outline, camber, *radius, end),
         ClosureKind::Wall(wall) => wall_closure(outline, camber, wall, end),
     }

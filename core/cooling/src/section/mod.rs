@@ -13,6 +13,7 @@ mod segment;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use camber::circle_of_radius;
 pub use camber::{Camber, Contact};
 pub use chamber::{ChamberRing, ClosureKind, RingRequest, SEGMENTS, WallRequest, chamber_ring};
 pub use outline::{Frame, Outline};

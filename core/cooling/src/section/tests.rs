@@ -60,7 +60,7 @@ fn half_nose() -> f64 {
 }
 
 fn natural() -> ClosureKind {
-    ClosureKind::Natural { leading_edge: (-half_nose(), half_nose()) }
+    ClosureKind::Natural { ends: (-half_nose(), half_nose()) }
 }
 
 fn camber_of(outline: &Outline) -> Camber {
