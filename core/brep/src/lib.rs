@@ -20,6 +20,7 @@ mod domain;
 mod foot;
 mod gauss;
 mod geometry;
+mod imprint;
 mod lanes;
 mod mass;
 mod model;
@@ -32,6 +33,7 @@ pub use build::{BORDER_TOLERANCE_MM, BuildError, LoopEdges, Pcurve, interpolated
 pub use check::{EDGE_TOLERANCE_MM, EdgePlace, Fault, SolidCheck, VERTEX_TOLERANCE_MM};
 pub use domain::{FaceDomain, signed_area};
 pub use geometry::{EdgeCurve, Plane, Revolution, RevolutionKind, SurfaceGeometry};
+pub use imprint::{Imprint, RingPiece};
 pub use mass::{FaceIntegrals, SolidMass, face_integrals};
 pub use model::{Coedge, Edge, EdgeId, Face, FaceId, FaceUse, Loop, Model, Shell, Solid, Style, VertexId};
 pub use sample::FaceSamples;

@@ -3,6 +3,7 @@
 //! [`design::Design::from_json`] reads a document and finds all its faults, [`generate`] builds it. Nothing here
 //! knows of files other than those the design names.
 
+mod bore;
 pub mod build;
 pub mod design;
 mod generate;

@@ -81,6 +81,16 @@ impl<V: VectorSpace> Curve<V> {
         Self::new(Knots::clamped(degree, &[0.0, 1.0])?, points)
     }
 
+    /// The curve with its first and last control point replaced: for clamped curves its ends, made to meet others bit
+    /// for bit.
+    #[must_use]
+    pub fn with_ends(mut self, start: V, end: V) -> Self {
+        let last = self.points.len() - 1;
+        self.points[0] = start;
+        self.points[last] = end;
+        self
+    }
+
     /// The straight segment from `start` to `end`, degree 1 on [0, 1].
     pub fn segment(start: V, end: V) -> Self {
         let knots = Knots::clamped(1, &[0.0, 1.0]).expect("two break points make degree 1 knots");

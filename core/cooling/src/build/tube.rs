@@ -65,7 +65,7 @@ pub(super) fn add_tube(
     for side in [0, 1] {
         for k in 0..count {
             let (start, end) = (vertices[k][side], vertices[(k + 1) % count][side]);
-            let curve = with_ends(&crossings[side][k].curve, model.vertex(start), model.vertex(end));
+            let curve = crossings[side][k].curve.clone().with_ends(model.vertex(start), model.vertex(end));
             ring_edges[side].push(model.add_edge(start, end, curve));
         }
     }
@@ -113,7 +113,7 @@ fn upright_curve(
     match surface {
         SurfaceGeometry::BSpline(s) => {
             let iso = s.iso_u(u).restricted(span[0], span[1])?;
-            Ok(with_ends(&iso, ends[0], ends[1]).into())
+            Ok(iso.with_ends(ends[0], ends[1]).into())
         }
         SurfaceGeometry::Rational(s) => {
             let iso = s.homogeneous().iso_u(u).restricted(span[0], span[1])?;
@@ -123,23 +123,6 @@ fn upright_curve(
             Err(NurbsError::NotFound { what: "an upright edge of a patch that is no spline" })
         }
     }
-}
-
-/// The curve with its end points replaced by those of the vertices, which it meets within rounding.
-fn with_ends(curve: &Curve<DVec3>, start: DVec3, end: DVec3) -> Curve<DVec3> {
-    let last = curve.points().len() - 1;
-    let mut index = 0;
-    curve.map(|&p| {
-        let point = if index == 0 {
-            start
-        } else if index == last {
-            end
-        } else {
-            p
-        };
-        index += 1;
-        point
-    })
 }
 
 /// Parameter v at which the line of constant u meets a stream surface.

@@ -2,12 +2,14 @@
 
 mod global;
 mod length;
+mod line;
 mod march;
 mod project_curve;
 mod project_surface;
 mod projector;
 
 pub use length::{ArcLength, curvature, signed_curvature};
+pub use line::{LineHit, line_meets_surface};
 pub use march::{
     CERTIFIED, CurveHit, SurfaceHit, march_to_curve, march_to_surface, ray_meets_curve, ray_meets_surface,
 };

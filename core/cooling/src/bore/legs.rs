@@ -1,0 +1,65 @@
+//! Legs: a path's hits on a target, parted where they cross from face to face.
+
+use super::BoreError;
+use super::target::{Crossing, Hit, Ray, Target};
+use coolinggen_brep::FaceId;
+use glam::DVec2;
+
+/// The part of a path that lies on one face.
+#[derive(Clone, Debug)]
+pub(super) struct Leg {
+    pub(super) face: FaceId,
+    /// Where on the face, and on its ray, the leg starts.
+    pub(super) start: (DVec2, f64),
+    /// Parameters of the path at its ends.
+    pub(super) from: f64,
+    pub(super) to: f64,
+    /// How it crosses to the next leg; none at the end of the path.
+    pub(super) crossing: Option<Crossing>,
+}
+
+/// Rays tried along a path to see where it crosses borders.
+const STEPS: usize = 12;
+/// Most borders that one path may cross.
+const MOST_CROSSINGS: usize = 12;
+
+/// Follows the hits of a path over the faces of a target. `start` is a face with parameters near the first hit, and the
+/// multiple of the ray there. Answers with the legs and where the path ends.
+pub(super) fn legs(
+    target: &Target<'_>,
+    rays: &dyn Fn(f64) -> Ray,
+    start: (FaceId, DVec2, f64),
+) -> Result<(Vec<Leg>, (FaceId, Hit)), BoreError> {
+    let (mut face, near, along) = start;
+    let first = target.meet(face, &rays(0.0), near, along).ok_or(BoreError::Misses)?;
+    let mut leg = Leg { face, start: (first.at, first.along), from: 0.0, to: 1.0, crossing: None };
+    let mut out = Vec::new();
+    let mut last = first;
+    let mut before = 0.0;
+    for k in 1..=STEPS {
+        let t = k as f64 / STEPS as f64;
+        let mut hit = target.meet(face, &rays(t), last.at, last.along).ok_or(BoreError::Misses)?;
+        while !target.holds(face, hit.at) {
+            if out.len() == MOST_CROSSINGS {
+                return Err(BoreError::Misses);
+            }
+            let crossing = target.crossing(face, rays, (before, t), &hit)?;
+            leg.to = crossing.t;
+            leg.crossing = Some(crossing);
+            out.push(leg);
+            face = crossing.to;
+            leg = Leg {
+                face,
+                start: (crossing.to_at, crossing.along),
+                from: crossing.t,
+                to: 1.0,
+                crossing: None,
+            };
+            before = crossing.t;
+            hit = target.meet(face, &rays(t), crossing.to_at, crossing.along).ok_or(BoreError::Misses)?;
+        }
+        (last, before) = (hit, t);
+    }
+    out.push(leg);
+    Ok((out, (face, last)))
+}

@@ -1,0 +1,58 @@
+//! Bores: one idea for film holes, slots, jets, crossovers, pins and dust holes (thesis 4.3 to 4.5, DESIGN 5.5).
+//!
+//! A bore is a closed family of lines between two surfaces. Its shape is a row of sections across an axis, each a closed
+//! chain of arcs and straight lines; between sections it is ruled. The lines of the first and the last stage go on until
+//! they meet the surfaces that the bore joins; the hits are the two delimiting curves, interpolated as cubics in the same
+//! parameter, and imprinted into the faces they lie on.
+
+mod build;
+mod legs;
+mod ring;
+mod shape;
+mod target;
+
+pub(crate) use build::{BoreNames, Bored, Drill};
+pub(crate) use shape::{BoreSection, BoreShape, Frame, circle, rounded_rectangle, stretched_circle};
+pub(crate) use target::{Mouth, Target};
+
+use std::fmt;
+
+/// Why a bore cannot be made.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BoreError {
+    /// A line of the bore does not meet the surface it should end on.
+    Misses,
+    /// The border of the bore runs over the end of a passage, or over hub or tip; the name of the face it leaves.
+    Leaves(String),
+    /// The bore's end lies beyond its neighbouring section: the wall is too thin for the shape, or the hole too
+    /// oblique. By how much, mm.
+    TooShort(f64),
+    /// A delimiting curve could not be brought within the tolerance of its surface.
+    Inaccurate,
+    /// A kernel or topology method failed.
+    Geometry(String),
+}
+
+impl fmt::Display for BoreError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Misses => write!(f, "does not meet the surface it should end on"),
+            Self::Leaves(face) => write!(f, "runs over the end of {face}"),
+            Self::TooShort(by) => write!(f, "is {by:.3} mm too short for its shape"),
+            Self::Inaccurate => write!(f, "meets its surface at too flat an angle"),
+            Self::Geometry(message) => write!(f, "{message}"),
+        }
+    }
+}
+
+impl From<coolinggen_nurbs::NurbsError> for BoreError {
+    fn from(error: coolinggen_nurbs::NurbsError) -> Self {
+        Self::Geometry(error.to_string())
+    }
+}
+
+impl From<coolinggen_brep::BuildError> for BoreError {
+    fn from(error: coolinggen_brep::BuildError) -> Self {
+        Self::Geometry(error.to_string())
+    }
+}

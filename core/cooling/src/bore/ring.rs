@@ -1,0 +1,102 @@
+//! Rings: cubics through the hits of a path, as exact as the checks of other programs ask.
+
+use super::BoreError;
+use super::target::{Hit, Ray, Target};
+use coolinggen_brep::FaceId;
+use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve, ParametricSurface};
+use glam::{DVec2, DVec3};
+use std::collections::HashMap;
+
+/// How far a delimiting curve may lie from its surface and from the image of its parameter curve, mm: FreeCAD's check
+/// allows 7e-8 including the reader's own interpolation (DESIGN 6).
+const TOLERANCE: f64 = 2e-8;
+/// Spans of a piece at which to give up.
+const MOST_SPANS: usize = 512;
+
+/// A piece of a delimiting curve over [0, 1], in space and in the face's parameters.
+#[derive(Clone, Debug)]
+pub(super) struct Trace {
+    pub(super) curve: Curve<DVec3>,
+    pub(super) pcurve: Curve<DVec2>,
+}
+
+/// Cubic interpolation over equal steps of [0, 1] with given end slopes, kept by the number of spans.
+#[derive(Debug, Default)]
+pub(super) struct Interpolators(HashMap<usize, Interpolator>);
+
+impl Interpolators {
+    pub(super) fn of(&mut self, spans: usize) -> Result<&Interpolator, BoreError> {
+        if !self.0.contains_key(&spans) {
+            let nodes: Vec<f64> = (0..=spans).map(|i| i as f64 / spans as f64).collect();
+            self.0.insert(spans, Interpolator::with_slopes(&nodes)?);
+        }
+        Ok(&self.0[&spans])
+    }
+}
+
+/// What is to be traced: the hits of a path's rays between two parameters on one face.
+pub(super) struct Stretch<'a> {
+    pub(super) target: Target<'a>,
+    pub(super) face: FaceId,
+    pub(super) rays: &'a dyn Fn(f64) -> Ray,
+    pub(super) range: (f64, f64),
+    /// Parameters and multiple of the ray at its start.
+    pub(super) start: (DVec2, f64),
+}
+
+impl Stretch<'_> {
+    /// The trace in `spans` spans, and how far it is off relative to the tolerance.
+    fn trace(&self, interpolators: &mut Interpolators, spans: usize) -> Result<(Trace, f64), BoreError> {
+        let (from, to) = self.range;
+        let mut hits: Vec<Hit> = Vec::with_capacity(spans + 1);
+        let (mut near, mut along) = self.start;
+        for k in 0..=spans {
+            let t = from + (to - from) * k as f64 / spans as f64;
+            let hit = self.target.meet(self.face, &(self.rays)(t), near, along).ok_or(BoreError::Misses)?;
+            (near, along) = (hit.at, hit.along);
+            hits.push(hit);
+        }
+        let points: Vec<DVec3> = hits.iter().map(|h| h.point).collect();
+        let parameters: Vec<DVec2> = hits.iter().map(|h| h.at).collect();
+        let (first, last) = (&hits[0], &hits[spans]);
+        let scale = to - from;
+        let interpolator = interpolators.of(spans)?;
+        let curve = interpolator.curve_with_slopes(&points, first.slope * scale, last.slope * scale)?;
+        let pcurve =
+            interpolator.curve_with_slopes(&parameters, first.at_slope * scale, last.at_slope * scale)?;
+        let surface = &self.target.model.face(self.face).surface;
+        let mut worst = 0.0f64;
+        for k in 0..spans {
+            let t = (k as f64 + 0.5) / spans as f64;
+            let q = pcurve.point(t);
+            worst = worst.max(surface.point(q.x, q.y).distance(curve.point(t)));
+        }
+        Ok((Trace { curve, pcurve }, worst / TOLERANCE))
+    }
+
+    /// Spans enough for the tolerance, `least` at least: the error falls with the fourth power of the step.
+    pub(super) fn spans_needed(
+        &self,
+        interpolators: &mut Interpolators,
+        least: usize,
+    ) -> Result<usize, BoreError> {
+        let mut spans = least;
+        loop {
+            let (_, ratio) = self.trace(interpolators, spans)?;
+            if ratio <= 1.0 {
+                return Ok(spans);
+            }
+            if spans >= MOST_SPANS {
+                return Err(BoreError::Inaccurate);
+            }
+            let wanted = (spans as f64 * 1.05 * ratio.powf(0.25)).ceil() as usize;
+            // A crude first trial tells little.
+            spans = wanted.clamp(spans + 1, (4 * spans).min(MOST_SPANS));
+        }
+    }
+
+    /// The trace in `spans` spans.
+    pub(super) fn traced(&self, interpolators: &mut Interpolators, spans: usize) -> Result<Trace, BoreError> {
+        Ok(self.trace(interpolators, spans)?.0)
+    }
+}

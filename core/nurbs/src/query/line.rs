@@ -1,0 +1,62 @@
+//! Where a straight line meets a surface.
+
+use crate::surface::ParametricSurface;
+use glam::{DMat3, DVec3};
+
+/// Where a line meets a surface, and the surface's derivatives there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineHit {
+    /// Multiple of the direction.
+    pub along: f64,
+    /// Parameters.
+    pub u: f64,
+    /// Parameters.
+    pub v: f64,
+    /// The point of the surface.
+    pub point: DVec3,
+    /// Derivative in u.
+    pub du: DVec3,
+    /// Derivative in v.
+    pub dv: DVec3,
+}
+
+/// Distance between line and surface at which they count as met, mm.
+const MET: f64 = 1e-10;
+const NEWTON: usize = 30;
+
+/// The meeting of the line `origin + s direction` with the surface near the parameters `hint` and `s = along`, by
+/// Newton's method. Neither the line nor the surface ends: outside its domain the surface's end polynomials are
+/// continued, so that a caller can see over which border the line leaves. None where the method does not get within
+/// 1e-10 mm.
+pub fn line_meets_surface(
+    surface: &impl ParametricSurface<DVec3>,
+    origin: DVec3,
+    direction: DVec3,
+    hint: (f64, f64),
+    along: f64,
+) -> Option<LineHit> {
+    let ((u0, u1), (v0, v1)) = surface.domain();
+    let reach =
+        |x: f64, low: f64, high: f64| if (high - low).is_finite() { (x / (high - low)).abs() } else { 0.0 };
+    let ((mut u, mut v), mut s) = (hint, along);
+    let mut before = f64::INFINITY;
+    for _ in 0..NEWTON {
+        let (point, du, dv) = surface.first_derivatives(u, v);
+        let miss = origin + direction * s - point;
+        let now = miss.length();
+        // Met, and no step makes it better: rounding is all that is left.
+        if now <= MET && now >= 0.25 * before {
+            return Some(LineHit { along: s, u, v, point, du, dv });
+        }
+        before = now;
+        let step = DMat3::from_cols(du, dv, -direction).inverse() * miss;
+        if !step.is_finite() {
+            return None;
+        }
+        // Steps beyond a quarter of the domain are no longer local.
+        let far = reach(step.x, u0, u1).max(reach(step.y, v0, v1));
+        let factor = if far > 0.25 { 0.25 / far } else { 1.0 };
+        (u, v, s) = (u + factor * step.x, v + factor * step.y, s + factor * step.z);
+    }
+    None
+}
