@@ -35,6 +35,9 @@ impl BuildError {
             }
             Refusal::FilletTooLarge { radius, greatest, .. } => fault.value(*radius).max(*greatest),
             Refusal::ChamberTooShort { length } => fault.value(*length).min(0.0),
+            Refusal::Hump { bend, .. } => fault
+                .value(*bend)
+                .hint("a rounder side, or a thinner section there: chambers and holes are placed along the camber line"),
             Refusal::NoInscribedCircle | Refusal::WallOutside { .. } => fault,
         };
         Self::Refused(vec![fault])

@@ -45,6 +45,21 @@ pub(super) struct MarchLimits {
     pub(super) back_radius: f64,
     /// Greatest step of the centre.
     pub(super) step: f64,
+    /// The foremost point, and the ends of suction and pressure side.
+    pub(super) tips: [DVec2; 3],
+}
+
+impl MarchLimits {
+    /// Whether a circle is well away from leading and trailing edge: there the camber line has no reason to end.
+    fn in_the_middle(&self, center: DVec2, radius: f64) -> bool {
+        self.tips.iter().all(|tip| tip.distance(center) > 2.0 * radius)
+    }
+
+    /// The least margin of a circle, see [`System::margin`]. The camber line ends where a circle comes near to
+    /// osculating the nose; between the edges it goes on as long as it can.
+    fn least_margin(&self, center: DVec2, radius: f64) -> f64 {
+        if self.in_the_middle(center, radius) { 0.02 } else { 0.1 }
+    }
 }
 
 /// Residual, the rows of its Jacobian and the frames at both contacts. The columns for a and b are per unit of
@@ -105,8 +120,11 @@ impl System {
 
     /// `1 - curvature * radius` at the tighter contact: zero where the circle osculates a side.
     fn margin(&self, radius: f64) -> f64 {
-        let one = |f: &Frame| 1.0 + f.normal_derivative.dot(f.tangent) / f.speed * radius;
-        one(&self.a).min(one(&self.b))
+        Self::margin_at(&self.a, radius).min(Self::margin_at(&self.b, radius))
+    }
+
+    fn margin_at(contact: &Frame, radius: f64) -> f64 {
+        1.0 + contact.normal_derivative.dot(contact.tangent) / contact.speed * radius
     }
 
     fn contact(&self, (suction, pressure, radius): (f64, f64, f64)) -> Contact {
@@ -145,7 +163,7 @@ fn solve_with_fixed(
 }
 
 impl Camber {
-    /// Marches both ways from a circle at 40 % of the suction side.
+    /// Marches both ways from a circle at about 40 % of the suction side.
     pub(super) fn march(outline: &Outline, nose: f64, limits: &MarchLimits) -> Result<Self, Refusal> {
         let start = start(outline, nose, limits).ok_or(Refusal::NoInscribedCircle)?;
         let mut contacts = walk(outline, start, -1.0, limits);
@@ -153,6 +171,11 @@ impl Camber {
         let system = System::new(outline, start.0, start.1, start.2);
         contacts.push(system.contact(start));
         contacts.extend(walk(outline, start, 1.0, limits));
+        for end in [contacts[0], contacts[contacts.len() - 1]] {
+            if let Some(refusal) = hump(outline, nose, &end, limits) {
+                return Err(refusal);
+            }
+        }
         Self::from_contacts(contacts)
     }
 
@@ -236,40 +259,77 @@ impl Camber {
     }
 }
 
-/// The circle of radius `radius` that touches both sides, near `from` (thesis 2.3.5: a fillet of the two sides).
+/// The circle of radius `radius` that touches both sides, near `from` (thesis 2.3.5: a fillet of the two sides); by
+/// way of circles between where the radii differ much.
 pub(super) fn circle_of_radius(outline: &Outline, from: &Contact, radius: f64) -> Option<Contact> {
-    let z = solve_with_fixed(outline, (from.suction, from.pressure, radius), 2, 0.3)?;
+    const STRIDE: f64 = 0.9;
+    let mut z = (from.suction, from.pressure, from.radius);
+    while z.2 != radius {
+        let next = radius.clamp(STRIDE * z.2, z.2 / STRIDE);
+        z = solve_with_fixed(outline, (z.0, z.1, next), 2, 0.3)?;
+    }
     let system = System::new(outline, z.0, z.1, z.2);
     // Both contacts in one point solve the equations too, for any radius.
     (system.a.normal.dot(system.b.normal) < NEARLY_ONE_POINT).then(|| system.contact(z))
 }
 
-/// A first circle: touching the suction side at 40 %, found by trying every point of the pressure side.
+/// Whether the camber line ends at a circle away from both edges because a side bends there as tightly as the circle:
+/// beyond it would fork into the hump.
+fn hump(outline: &Outline, nose: f64, end: &Contact, limits: &MarchLimits) -> Option<Refusal> {
+    let system = System::new(outline, end.suction, end.pressure, end.radius);
+    // Marching halves its step as it comes near to the limit.
+    let osculates = system.margin(end.radius) < 1.1 * limits.least_margin(end.center, end.radius);
+    if !(osculates && limits.in_the_middle(end.center, end.radius)) {
+        return None;
+    }
+    let on_suction = System::margin_at(&system.a, end.radius) <= System::margin_at(&system.b, end.radius);
+    let (side, u, tail) = match on_suction {
+        true => ("suction side", end.suction, limits.back.0),
+        false => ("pressure side", end.pressure, limits.back.1),
+    };
+    let bend = 1.0 / outline.curvature(u);
+    Some(Refusal::Hump { side, fraction: (u - nose) / (tail - nose), bend, radius: end.radius })
+}
+
+/// A first circle: touching the suction side at 40 % or nearby, found by trying every point of the pressure side. The
+/// first that is not near to osculating a side, or the one farthest from it.
 fn start(outline: &Outline, nose: f64, limits: &MarchLimits) -> Option<(f64, f64, f64)> {
-    for fraction in [0.4, 0.3, 0.5, 0.2, 0.6, 0.1] {
-        let a = nose + (limits.back.0 - nose) * fraction;
-        let frame = outline.frame(a);
-        let mut best = (0.0, f64::INFINITY);
-        const TRIES: usize = 200;
-        for k in 0..TRIES {
-            let b = nose + (limits.back.1 - nose) * (0.02 + 0.96 * k as f64 / TRIES as f64);
-            let w = outline.frame(b).point - frame.point;
-            let toward = w.dot(frame.normal);
-            // The circle through b that touches the suction side at a.
-            let radius = 0.5 * w.length_squared() / toward;
-            if toward > 0.0 && radius < best.1 {
-                best = (b, radius);
-            }
-        }
-        if best.1.is_finite()
-            && let Some(z) = solve_with_fixed(outline, (a, best.0, best.1), 0, 0.05 * best.1.max(0.5))
-            && z.1 < nose
-            && z.1 > limits.back.1
-        {
+    const CLEAR: f64 = 0.2;
+    let mut best: Option<(f64, (f64, f64, f64))> = None;
+    for fraction in [0.4, 0.3, 0.5, 0.2, 0.6, 0.1, 0.7, 0.8] {
+        let Some(z) = circle_at(outline, nose, fraction, limits) else { continue };
+        let margin = System::new(outline, z.0, z.1, z.2).margin(z.2);
+        if margin > CLEAR {
             return Some(z);
         }
+        if best.is_none_or(|(m, _)| margin > m) {
+            best = Some((margin, z));
+        }
     }
-    None
+    best.map(|(_, z)| z)
+}
+
+/// The circle that touches the suction side at a fraction of its length from the nose.
+fn circle_at(outline: &Outline, nose: f64, fraction: f64, limits: &MarchLimits) -> Option<(f64, f64, f64)> {
+    const TRIES: usize = 200;
+    let a = nose + (limits.back.0 - nose) * fraction;
+    let frame = outline.frame(a);
+    let mut best = (0.0, f64::INFINITY);
+    for k in 0..TRIES {
+        let b = nose + (limits.back.1 - nose) * (0.02 + 0.96 * k as f64 / TRIES as f64);
+        let w = outline.frame(b).point - frame.point;
+        let toward = w.dot(frame.normal);
+        // The circle through b that touches the suction side at a.
+        let radius = 0.5 * w.length_squared() / toward;
+        if toward > 0.0 && radius < best.1 {
+            best = (b, radius);
+        }
+    }
+    if !best.1.is_finite() {
+        return None;
+    }
+    let z = solve_with_fixed(outline, (a, best.0, best.1), 0, 0.05 * best.1.max(0.5))?;
+    (z.1 < nose && z.1 > limits.back.1).then_some(z)
 }
 
 /// Marches from `start` towards the back (`sign` +1) or the front (-1).
@@ -332,7 +392,11 @@ fn acceptable(
     moved
         && within
         && radius >= least
-        && system.margin(radius) > 0.1
+        && system.margin(radius) > limits.least_margin(center_of(system, radius), radius)
         && system.a.normal.dot(system.b.normal) < NEARLY_ONE_POINT
-        && center.distance(system.a.point + system.a.normal * radius) < 2.0 * step
+        && center.distance(center_of(system, radius)) < 2.0 * step
+}
+
+fn center_of(system: &System, radius: f64) -> DVec2 {
+    system.a.point + system.a.normal * radius
 }

@@ -84,11 +84,7 @@ fn wall_closure(
     let (foot_a, foot_b) = (center_a - normal * wall.fillet, center_b - normal * wall.fillet);
     let straight = (foot_a - foot_b).dot(wall.direction);
     if !(straight > 0.0) {
-        // Each fillet takes about (1 + 1 / tan) of its radius off the straight part; a ratio of lengths is
-        // near enough for "about".
-        let whole = straight + 2.0 * wall.fillet;
-        let greatest = (0.5 * whole).max(0.0).min(wall.fillet);
-        return Err(Refusal::FilletTooLarge { wall: wall.name.clone(), radius: wall.fillet, greatest });
+        return Err(Refusal::FilletTooLarge { wall: wall.name.clone(), radius: wall.fillet, greatest: 0.0 });
     }
     let (a, b) = (outline.frame(suction).point, outline.frame(pressure).point);
     let segments = match end {

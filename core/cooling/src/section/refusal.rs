@@ -7,6 +7,17 @@ use std::fmt;
 pub enum Refusal {
     /// No circle fits between the two sides where one must.
     NoInscribedCircle,
+    /// A side bends more tightly than the circle between the sides: the camber line would fork into the hump.
+    Hump {
+        /// Name of the side.
+        side: &'static str,
+        /// Where, as a fraction of the side from the foremost point, by the blade's parameter.
+        fraction: f64,
+        /// Radius of the bend.
+        bend: f64,
+        /// Radius of the circle that touches both sides.
+        radius: f64,
+    },
     /// The greatest inscribed circle of a chamber is smaller than its end radius: the shell leaves no room.
     ChamberVanishes {
         /// Radius of the greatest circle that fits.
@@ -14,13 +25,13 @@ pub enum Refusal {
         /// Radius needed.
         needed: f64,
     },
-    /// The two fillets of a wall overlap.
+    /// The fillets at a wall leave the chamber no room: they overlap, or reach past the chamber's other end.
     FilletTooLarge {
         /// Name of the wall.
         wall: String,
         /// The fillet radius asked for.
         radius: f64,
-        /// About the greatest radius that leaves a straight part.
+        /// The greatest radius with which the section can be built, 0 where none was found.
         greatest: f64,
     },
     /// A wall's fillet touches no point of a side: the wall stands outside the offset profile.
@@ -39,14 +50,23 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoInscribedCircle => write!(f, "the two sides leave no room for an inscribed circle"),
+            Self::Hump { side, fraction, bend, radius } => write!(
+                f,
+                "at {:.0} % of the {side} the surface bends with a radius of {bend:.3} mm, as tightly as the circle of \
+                 {radius:.3} mm that touches both sides: there is no one camber line past such a hump",
+                100.0 * fraction
+            ),
             Self::ChamberVanishes { radius, needed } => write!(
                 f,
                 "the shell leaves room for a circle of radius {radius:.3} mm, the chamber's end needs {needed:.3} mm"
             ),
-            Self::FilletTooLarge { wall, radius, greatest } => write!(
-                f,
-                "the fillets of radius {radius:.3} mm overlap at wall {wall}; about {greatest:.3} mm would fit"
-            ),
+            Self::FilletTooLarge { wall, radius, greatest } => {
+                write!(f, "fillets of radius {radius:.3} mm do not fit at wall {wall}, ")?;
+                match *greatest {
+                    0.0 => write!(f, "nor does any smaller one"),
+                    greatest => write!(f, "the greatest that fits has {greatest:.4} mm"),
+                }
+            }
             Self::WallOutside { wall } => write!(f, "wall {wall} does not meet both sides of the chamber"),
             Self::ChamberTooShort { length } => {
                 write!(f, "the chamber's ends overlap by {:.3} mm", -length)
