@@ -1,7 +1,8 @@
 //! A chamber of one section: a ring of eight segments.
 
-use super::camber::{Camber, MarchLimits};
+use super::camber::Camber;
 use super::closure::{End, closure};
+use super::march::MarchLimits;
 use super::outline::Outline;
 use super::refusal::Refusal;
 use super::segment::Segment;
@@ -175,6 +176,6 @@ impl Camber {
             step,
             tips: [nose, start, end].map(|u| outline.frame(u).point),
         };
-        Self::march(outline, nose, &limits)
+        Self::within(outline, nose, &limits)
     }
 }

@@ -1,7 +1,8 @@
 //! What closes a chamber at its front and back: a nose, a tail, or a wall.
 
-use super::camber::{Camber, Contact, circle_of_radius};
+use super::camber::{Camber, Contact};
 use super::chamber::{ClosureKind, WallRequest};
+use super::march::circle_of_radius;
 use super::outline::Outline;
 use super::refusal::Refusal;
 use super::segment::Segment;

@@ -7,6 +7,7 @@
 mod camber;
 mod chamber;
 mod closure;
+mod march;
 mod outline;
 mod refusal;
 mod segment;
