@@ -22,6 +22,13 @@ pub enum BuildError {
     },
     /// A kernel method.
     Kernel(NurbsError),
+    /// A solid was built and is not what it must be.
+    Unsound {
+        /// Name of the solid.
+        solid: String,
+        /// What is wrong with it.
+        what: String,
+    },
 }
 
 impl BuildError {
@@ -43,13 +50,32 @@ impl BuildError {
         Self::Refused(vec![fault])
     }
 
-    /// The failure as faults of the design.
+    /// The failure as a fault of the parameter at `pointer`, unless it names its parameters already.
+    pub(super) fn blamed_on(self, pointer: &str) -> Self {
+        Self::Refused(self.faults_at(pointer))
+    }
+
+    /// The failure as faults of the design; what names no parameter is the blade's.
     pub fn into_faults(self) -> Vec<Fault> {
-        match self {
-            Self::Refused(faults) => faults,
-            Self::Blade(error) => vec![Fault::new("/blade", "geometry", error.to_string())],
-            other => vec![Fault::new("", "geometry", other.to_string())],
-        }
+        self.faults_at("/blade")
+    }
+
+    fn faults_at(self, pointer: &str) -> Vec<Fault> {
+        let message = self.to_string();
+        let hint = match self {
+            Self::Refused(faults) => return faults,
+            Self::Blade(BladeError::OutsideContours { .. }) => {
+                "hub and shroud must run past everything that stands between them"
+            }
+            Self::Blade(_) | Self::NoCrossing { .. } => {
+                "what runs from hub to tip must cross every stream surface on its way, once and not along it"
+            }
+            Self::Kernel(_) => "a shape there is too small, too sharp or folded",
+            Self::Unsound { .. } => {
+                "smoother contours and blade surfaces, or other places of what meets there, help"
+            }
+        };
+        vec![Fault::new(pointer, "geometry", message).hint(hint)]
     }
 }
 
@@ -67,6 +93,7 @@ impl fmt::Display for BuildError {
                 write!(f, "{face} does not cross the stream surface at span fraction {v}")
             }
             Self::Kernel(error) => error.fmt(f),
+            Self::Unsound { solid, what } => write!(f, "the solid {solid} came out unsound: {what}"),
         }
     }
 }

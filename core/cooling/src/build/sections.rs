@@ -105,7 +105,14 @@ fn foremost(blade: &Blade, nodes: &[f64], trailing: f64) -> f64 {
 
 impl Section {
     /// The section of `blade` on the stream surface at span fraction `v`.
+    ///
+    /// # Errors
+    /// Faults of the blade where it has no such section.
     pub(super) fn new(blade: &Blade, space: &StreamSpace, grid: &Grid, v: f64) -> Result<Self, BuildError> {
+        Self::cut(blade, space, grid, v).map_err(|e| e.blamed_on("/blade"))
+    }
+
+    fn cut(blade: &Blade, space: &StreamSpace, grid: &Grid, v: f64) -> Result<Self, BuildError> {
         let stream = space.surface(v)?;
         let crossings = blade.profile(&stream, &grid.nodes)?;
         let (blade_v, points): (Vec<f64>, Vec<DVec2>) = crossings.into_iter().unzip();
