@@ -41,7 +41,10 @@ impl BuildError {
                 fault.value(*needed).max(*radius).hint("a thinner shell, or smaller radii, leave the room")
             }
             Refusal::FilletTooLarge { radius, greatest, .. } => fault.value(*radius).max(*greatest),
-            Refusal::ChamberTooShort { length } => fault.value(*length).min(0.0),
+            Refusal::ChamberTooShort { length, .. } => fault
+                .value(*length)
+                .min(0.0)
+                .hint("walls farther apart, steeper or thinner, or smaller fillets"),
             Refusal::Hump { bend, .. } => fault
                 .value(*bend)
                 .hint("a rounder side, or a thinner section there: chambers and holes are placed along the camber line"),

@@ -29,6 +29,14 @@ pub enum ClosureKind {
 }
 
 impl ClosureKind {
+    fn describe(&self, end: End) -> String {
+        match (self, end) {
+            (Self::Wall(wall), _) => format!("wall {}", wall.name),
+            (_, End::Front) => "the leading end".to_owned(),
+            (_, End::Back) => "the trailing end".to_owned(),
+        }
+    }
+
     /// The same closure with the radii of its arcs times `factor`.
     fn with_radii_times(&self, factor: f64) -> Self {
         match self {
@@ -112,7 +120,11 @@ fn with_greatest_fillet(request: &RingRequest<'_>, refusal: Refusal) -> Refusal 
     while !builds(low) {
         (low, high) = (0.5 * low, low);
         if low < LEAST_FACTOR {
-            return refusal;
+            // Not the fillets: the two sides have crossed already where the wall stands.
+            return match refusal {
+                Refusal::FilletTooLarge { wall, .. } => Refusal::WallOutside { wall },
+                other => other,
+            };
         }
     }
     while high - low > FACTOR_ACCURACY * low {
@@ -128,6 +140,7 @@ fn ring(
     front: &ClosureKind,
     back: &ClosureKind,
 ) -> Result<ChamberRing, Refusal> {
+    let ends = [front.describe(End::Front), back.describe(End::Back)];
     let front = closure(outline, camber, front, End::Front)?;
     let back = closure(outline, camber, back, End::Back)?;
     let speed = |u: f64| outline.frame(u).speed;
@@ -137,7 +150,7 @@ fn ring(
     ];
     let length = lengths[0].min(lengths[1]);
     if !(length > 0.0) {
-        return Err(Refusal::ChamberTooShort { length });
+        return Err(Refusal::ChamberTooShort { ends, length });
     }
     let [b0, b1, b2] = back.segments;
     let [f0, f1, f2] = front.segments;

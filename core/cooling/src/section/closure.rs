@@ -85,6 +85,7 @@ fn wall_closure(
     let (foot_a, foot_b) = (center_a - normal * wall.fillet, center_b - normal * wall.fillet);
     let straight = (foot_a - foot_b).dot(wall.direction);
     if !(straight > 0.0) {
+        // How great they may be is sought where the whole chamber is known.
         return Err(Refusal::FilletTooLarge { wall: wall.name.clone(), radius: wall.fillet, greatest: 0.0 });
     }
     let (a, b) = (outline.frame(suction).point, outline.frame(pressure).point);

@@ -31,7 +31,7 @@ pub enum Refusal {
         wall: String,
         /// The fillet radius asked for.
         radius: f64,
-        /// The greatest radius with which the section can be built, 0 where none was found.
+        /// The greatest radius with which the section can be built.
         greatest: f64,
     },
     /// A wall's fillet touches no point of a side: the wall stands outside the offset profile.
@@ -39,8 +39,11 @@ pub enum Refusal {
         /// Name of the wall.
         wall: String,
     },
-    /// The front closure of a chamber reaches past its back closure.
+    /// The front closure of a chamber reaches past its back closure, on one side or on both: walls that cross, or
+    /// stand too near to each other or to an end.
     ChamberTooShort {
+        /// What closes the chamber in front and at the back.
+        ends: [String; 2],
         /// Length left along the shorter side, negative.
         length: f64,
     },
@@ -60,16 +63,17 @@ impl fmt::Display for Refusal {
                 f,
                 "the shell leaves room for a circle of radius {radius:.3} mm, the chamber's end needs {needed:.3} mm"
             ),
-            Self::FilletTooLarge { wall, radius, greatest } => {
-                write!(f, "fillets of radius {radius:.3} mm do not fit at wall {wall}, ")?;
-                match *greatest {
-                    0.0 => write!(f, "nor does any smaller one"),
-                    greatest => write!(f, "the greatest that fits has {greatest:.4} mm"),
-                }
-            }
+            Self::FilletTooLarge { wall, radius, greatest } => write!(
+                f,
+                "fillets of radius {radius:.3} mm do not fit at wall {wall}, the greatest that fits has {greatest:.4} mm"
+            ),
             Self::WallOutside { wall } => write!(f, "wall {wall} does not meet both sides of the chamber"),
-            Self::ChamberTooShort { length } => {
-                write!(f, "the chamber's ends overlap by {:.3} mm", -length)
+            Self::ChamberTooShort { ends: [front, back], length } => {
+                write!(
+                    f,
+                    "{front} and {back} cross in the chamber or overlap, by {:.3} mm along a side",
+                    -length
+                )
             }
         }
     }
