@@ -48,9 +48,14 @@ struct Limits {
 impl Limits {
     fn narrowed(&self, schema: &'static Map<String, Value>) -> Self {
         let number = |key: &str| schema.get(key).and_then(Value::as_f64);
+        // What the type holds limits what its field does not.
+        let widest = match schema.get("format").and_then(Value::as_str) {
+            Some("uint32") => Some(f64::from(u32::MAX)),
+            _ => None,
+        };
         Self {
             minimum: number("minimum").or(self.minimum),
-            maximum: number("maximum").or(self.maximum),
+            maximum: number("maximum").or(self.maximum).or(widest),
             unit: schema.get("unit").and_then(Value::as_str).or(self.unit),
             law: self.law || schema.get("law") == Some(&Value::Bool(true)),
         }
