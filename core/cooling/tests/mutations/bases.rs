@@ -87,6 +87,6 @@ fn chambers_and_hole(pritchard: &Value) -> Value {
     design["name"] = json!("mixed");
     design["cooling"]["radial_holes"] =
         json!([{"name": "h", "diameter": 0.3, "at": {"frame": "camber", "position": 0.415}}]);
-    design["cooling"]["walls"][0]["thickness"] = json!(1.2);
+    design["cooling"]["walls"][0]["thickness"] = json!(2.0);
     design
 }

@@ -90,6 +90,9 @@ fn check_report(report: &Report) -> Result<(), String> {
     if !(report.max_edge_deviation_mm <= 3e-8) {
         return Err(format!("edges lie {} mm off their faces", report.max_edge_deviation_mm));
     }
+    if let Some(wall) = report.wall_thickness_mm.as_ref().filter(|w| !(w.min > 0.0)) {
+        return Err(format!("{} leaves the blade: {wall:?}", wall.face));
+    }
     let sum: f64 = report.solids.values().map(|s| s.volume_mm3).sum();
     let blank = report.blank.volume_mm3;
     let off = (sum - blank).abs() / blank;

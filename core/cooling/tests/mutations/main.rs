@@ -69,6 +69,14 @@ fn work(first: usize, workers: usize, send: &Sender<Done>) {
 }
 
 #[test]
+fn every_base_is_built() {
+    for base in bases::bases() {
+        let outcome = judge(&base.design.to_string());
+        assert!(matches!(outcome, Ok(Outcome::Built)), "{}: {outcome:?}", base.design["name"]);
+    }
+}
+
+#[test]
 fn ten_thousand_mutated_designs_are_built_right_or_refused_well() {
     if let Some(case) = std::env::var("COOLINGGEN_MUTATION").ok().and_then(|c| c.parse().ok()) {
         let bases = bases::bases();
