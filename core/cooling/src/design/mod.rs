@@ -7,6 +7,7 @@ mod chambers;
 mod radial_holes;
 mod read;
 mod schema;
+mod spelling;
 
 pub use chambers::{Chamber, Shell, Wall};
 pub use radial_holes::{HolePlacement, RadialHole};
