@@ -43,11 +43,11 @@ fn change(value: &mut Value, draw: &mut Draw, how: fn(&mut Value, &mut Draw)) {
     }
 }
 
-/// Every number in it times nearly one.
+/// Every number in it times nearly one; one number alone sometimes by more, up to where geometry gives way.
 fn gentle(value: &mut Value, draw: &mut Draw) {
     match value {
         Value::Number(n) => {
-            let factor = draw.between(0.9, 1.1);
+            let factor = if draw.once_in(2) { draw.between(0.9, 1.1) } else { draw.between(0.2, 4.0) };
             let whole = n.is_u64() || n.is_i64();
             let changed = n.as_f64().unwrap_or(1.0) * factor;
             // Degrees stay whole numbers, dimensions need not.
