@@ -9,7 +9,8 @@ pub(crate) fn mutated(design: &Value, draw: &mut Draw) -> String {
     // A gentle change leaves most designs sound enough to reach the build; the wild ones test what stands before.
     if draw.once_in(5) {
         for _ in 0..=draw.below(3) {
-            change(&mut design, draw, gentle);
+            let place = if draw.once_in(2) { &mut design["cooling"] } else { &mut design };
+            change(place, draw, gentle);
         }
         return design.to_string();
     }
