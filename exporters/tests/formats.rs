@@ -7,8 +7,9 @@ use coolinggen_exporters::{
     ExportError, Tessellation, TessellationOptions, tessellate, write_glb, write_mtl, write_obj, write_stl,
 };
 use glam::DVec3;
-use std::collections::BTreeMap;
+use support::closed::{self, welded};
 use support::mesh;
+use support::stl::read_stl;
 
 fn mesh_of(model: &Model) -> Tessellation {
     tessellate(model, &TessellationOptions::default()).unwrap()
@@ -16,19 +17,6 @@ fn mesh_of(model: &Model) -> Tessellation {
 
 fn face_names(model: &Model, solid: &Solid) -> Vec<String> {
     solid.faces().map(|f| model.face(f.face).name.replace(' ', "_")).collect()
-}
-
-/// One index a distinct point, compared bit for bit.
-fn welded(points: &[DVec3]) -> (Vec<u32>, Vec<DVec3>) {
-    let mut known: BTreeMap<[u64; 3], u32> = BTreeMap::new();
-    let mut out = Vec::new();
-    let index = |p: &DVec3| {
-        *known.entry(p.to_array().map(f64::to_bits)).or_insert_with(|| {
-            out.push(*p);
-            out.len() as u32 - 1
-        })
-    };
-    (points.iter().map(index).collect(), out)
 }
 
 #[test]
@@ -73,8 +61,8 @@ fn obj_keeps_groups_materials_and_closes() {
             }
             let (index, points) = welded(&points);
             let triangles: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|i| index[i as usize])).collect();
-            assert_eq!(mesh::open_sides(&triangles), 0, "{name}");
-            assert!(mesh::volume(&triangles, &points) > 0.0, "{name}");
+            assert_eq!(closed::open_sides(&triangles), 0, "{name}");
+            assert!(closed::volume(&triangles, &points) > 0.0, "{name}");
         }
     }
 }
@@ -135,9 +123,9 @@ fn glb_has_nodes_primitives_names_and_closes() {
             }
             let (index, points) = welded(&points);
             let triangles: Vec<[u32; 3]> = triangles.iter().map(|t| t.map(|i| index[i as usize])).collect();
-            assert_eq!(mesh::open_sides(&triangles), 0, "{name}");
-            let exact = mesh::volume(&mesh::solid_triangles(&t, solid), &t.points);
-            let found = mesh::volume(&triangles, &points) * 1e9;
+            assert_eq!(closed::open_sides(&triangles), 0, "{name}");
+            let exact = closed::volume(&mesh::solid_triangles(&t, solid), &t.points);
+            let found = closed::volume(&triangles, &points) * 1e9;
             assert!((found - exact).abs() < 1e-5 * exact, "{name}: {found} {exact}");
             // Machine (x, y, z) mm is glTF (x, z, -y) m.
             let p = t.points[solid.faces().next().map(|f| t.faces[f.face.0].points[0]).unwrap() as usize];
@@ -145,29 +133,6 @@ fn glb_has_nodes_primitives_names_and_closes() {
             assert!((there - DVec3::new(p.x, p.z, -p.y) * 1e-3).length() < 1e-8, "{name}");
         }
     }
-}
-
-/// Regions of an ASCII STL: names and triangles.
-fn read_stl(text: &str) -> Vec<(String, Vec<[DVec3; 3]>)> {
-    let mut out: Vec<(String, Vec<[DVec3; 3]>)> = Vec::new();
-    let mut corners = Vec::new();
-    for line in text.lines() {
-        let mut words = line.split_whitespace();
-        match words.next().unwrap() {
-            "solid" => out.push((words.next().unwrap().to_owned(), Vec::new())),
-            "endsolid" => assert_eq!(words.next(), out.last().map(|r| r.0.as_str())),
-            "vertex" => {
-                let c: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
-                corners.push(DVec3::new(c[0], c[1], c[2]));
-            }
-            "endfacet" => {
-                out.last_mut().unwrap().1.push([corners[0], corners[1], corners[2]]);
-                corners.clear();
-            }
-            _ => {}
-        }
-    }
-    out
 }
 
 #[test]
@@ -183,9 +148,9 @@ fn stl_has_named_regions_and_closes() {
             let corners: Vec<DVec3> = regions.iter().flat_map(|r| r.1.iter().flatten().copied()).collect();
             let (index, points) = welded(&corners);
             let triangles: Vec<[u32; 3]> = index.chunks(3).map(|t| [t[0], t[1], t[2]]).collect();
-            assert_eq!(mesh::open_sides(&triangles), 0, "{name}");
-            let exact = mesh::volume(&mesh::solid_triangles(&t, solid), &t.points);
-            assert_eq!(mesh::volume(&triangles, &points) as f32, exact as f32, "{name}");
+            assert_eq!(closed::open_sides(&triangles), 0, "{name}");
+            let exact = closed::volume(&mesh::solid_triangles(&t, solid), &t.points);
+            assert_eq!(closed::volume(&triangles, &points) as f32, exact as f32, "{name}");
         }
     }
 }

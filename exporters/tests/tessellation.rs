@@ -6,7 +6,7 @@ use coolinggen_brep::{Model, Plane, Style, SurfaceGeometry};
 use coolinggen_exporters::{ExportError, TessellationOptions, tessellate};
 use glam::DVec3;
 use proptest::prelude::*;
-use support::{mesh, surfaces};
+use support::{closed, mesh, surfaces};
 
 fn options(chord_mm: f64, angle_deg: f64) -> TessellationOptions {
     TessellationOptions { chord_mm, angle_deg, max_edge_mm: None }
@@ -22,7 +22,7 @@ fn meshes_are_closed_and_keep_the_chord() {
             assert_eq!(t.coarse, [], "{name} at {chord_mm}");
             for solid in &model.solids {
                 let triangles = mesh::solid_triangles(&t, solid);
-                assert_eq!(mesh::open_sides(&triangles), 0, "{name} {} at {chord_mm}", solid.name);
+                assert_eq!(closed::open_sides(&triangles), 0, "{name} {} at {chord_mm}", solid.name);
             }
             for (face, found) in model.faces.iter().zip(mesh::inspect(&model, &t)) {
                 let at = format!("{name} {} at {chord_mm}: {found:?}", face.name);
@@ -39,7 +39,7 @@ fn volumes_converge_from_within_the_chord() {
     for (name, model) in support::all() {
         let volumes = |chord: f64| -> Vec<f64> {
             let t = tessellate(&model, &options(chord, 10.0)).unwrap();
-            let volume = |s| mesh::volume(&mesh::solid_triangles(&t, s), &t.points);
+            let volume = |s| closed::volume(&mesh::solid_triangles(&t, s), &t.points);
             model.solids.iter().map(volume).collect()
         };
         for (coarse, fine) in volumes(0.02).into_iter().zip(volumes(0.0005)) {
@@ -66,7 +66,7 @@ fn known_volumes() {
     ] {
         let model = &support::all().into_iter().find(|(n, _)| *n == name).unwrap().1;
         let t = tessellate(model, &options(1e-4, 15.0)).unwrap();
-        let found = mesh::volume(&mesh::solid_triangles(&t, model.solid(solid).unwrap()), &t.points);
+        let found = closed::volume(&mesh::solid_triangles(&t, model.solid(solid).unwrap()), &t.points);
         assert!((found - volume).abs() < 1e-4 * volume, "{name}: {found}, not {volume}");
     }
 }

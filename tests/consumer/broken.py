@@ -109,6 +109,16 @@ GEOMETRY = [
     ),
     rotor("walls out of order", {WALLS: swapped}),
     rotor("walls at one place", {f"{WALLS}/1/position": 0.31, f"{WALLS}/0/position": 0.31}, (WALLS,)),
+    rotor(
+        "walls that cross in the blade though their positions are in order",
+        {
+            f"{WALLS}/0/position": 0.35,
+            f"{WALLS}/0/angle_deg": 150,
+            f"{WALLS}/1/position": 0.45,
+            f"{WALLS}/1/angle_deg": 30,
+        },
+        (f"{CHAMBERS}/1", WALLS),
+    ),
     rotor("a wall thicker than its chambers", {f"{WALLS}/0/thickness": 60}, (WALLS, CHAMBERS)),
     rotor("fillet larger than the chamber", {f"{CHAMBERS}/0/fillet_radius": 50}),
     rotor("two walls of one name", {f"{WALLS}/1/name": "twin", f"{WALLS}/0/name": "twin"}, (WALLS,)),

@@ -1,27 +1,9 @@
-//! Measures of meshes: closed, volume, distance from the surfaces.
+//! Distance of meshes from their surfaces.
 
 use coolinggen_brep::{Face, Model, Solid};
 use coolinggen_exporters::Tessellation;
 use coolinggen_nurbs::ParametricSurface;
 use glam::{DVec2, DVec3};
-use std::collections::BTreeMap;
-
-/// Sides that do not occur exactly once in each direction.
-pub fn open_sides(triangles: &[[u32; 3]]) -> usize {
-    let mut count: BTreeMap<(u32, u32), i64> = BTreeMap::new();
-    for t in triangles {
-        for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
-            *count.entry((a, b)).or_default() += 1;
-        }
-    }
-    count.iter().filter(|&(&(a, b), &n)| n != 1 || count.get(&(b, a)) != Some(&1)).count()
-}
-
-pub fn volume(triangles: &[[u32; 3]], points: &[DVec3]) -> f64 {
-    let base = points[triangles[0][0] as usize];
-    let at = |i: u32| points[i as usize] - base;
-    triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c))) / 6.0).sum()
-}
 
 /// Triangles of a solid as indices of points.
 pub fn solid_triangles(mesh: &Tessellation, solid: &Solid) -> Vec<[u32; 3]> {

@@ -3,8 +3,10 @@
 
 pub mod airfoil;
 pub mod blocks;
+pub mod closed;
 pub mod mesh;
 pub mod perforated;
+pub mod stl;
 pub mod surfaces;
 
 use coolinggen_brep::{

@@ -39,24 +39,29 @@ pub struct CooledBlade {
 pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBlade, BuildError> {
     let mut model = Model::default();
     let ends = [space.surface(0.0)?, space.surface(1.0)?];
-    let outer = add_blade(&mut model, blade, [&ends[0], &ends[1]])?;
+    let outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
     let mut passages = Vec::new();
     let mut radial_holes = Vec::new();
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
         let grid = Grid::new(blade)?;
         let mut polygons = Vec::new();
         if let (Some(shell), false) = (&plan.shell, plan.chambers.is_empty()) {
-            let stack = Stack::new(blade, space, &grid, plan, shell)?;
-            (passages, polygons) = add_chambers(&mut model, blade, &stack, plan)?;
+            let stack = Stack::new(blade, space, &grid, plan, shell);
+            (passages, polygons) = stack
+                .and_then(|stack| add_chambers(&mut model, blade, &stack, plan))
+                .map_err(|e| e.blamed_on("/cooling/chambers"))?;
         }
         if !plan.radial_holes.is_empty() {
             let sections = [Section::new(blade, space, &grid, 0.0)?, Section::new(blade, space, &grid, 1.0)?];
-            for hole in &plan.radial_holes {
-                radial_holes.push(place(blade, [&sections[0], &sections[1]], hole)?);
+            let pointer = |k: usize| format!("/cooling/radial_holes/{k}");
+            for (k, hole) in plan.radial_holes.iter().enumerate() {
+                let placed = place(blade, [&sections[0], &sections[1]], hole);
+                radial_holes.push(placed.map_err(|e| e.blamed_on(&pointer(k)))?);
             }
             clearance::check(blade, &radial_holes, &polygons)?;
-            for hole in &radial_holes {
-                let CutTube { faces, rings } = add_tube(&mut model, patches(hole)?, [&ends[0], &ends[1]])?;
+            for (k, hole) in radial_holes.iter().enumerate() {
+                let tube = patches(hole).and_then(|p| add_tube(&mut model, p, [&ends[0], &ends[1]]));
+                let CutTube { faces, rings } = tube.map_err(|e| e.blamed_on(&pointer(k)))?;
                 let path = format!("radial_hole/{}", hole.name);
                 passages.push(Passage {
                     name: hole.name.clone(),

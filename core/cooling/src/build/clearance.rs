@@ -24,7 +24,7 @@ pub(super) fn check(
     let probe = Probe::new(blade);
     for (k, hole) in holes.iter().enumerate() {
         let at = format!("/cooling/radial_holes/{k}");
-        let (room, station) = room_to_surface(&probe, hole)?;
+        let (room, station) = room_to_surface(&probe, hole).map_err(|e| e.blamed_on(&at))?;
         if !(room > 0.0) {
             let diameter = hole.diameter(station);
             let message = format!(
@@ -33,7 +33,7 @@ pub(super) fn check(
             );
             let fault =
                 Fault::new(format!("{at}/diameter"), "leaves_blade", message).value(diameter).unit("mm");
-            let greatest = 2.0 * room_about_axis(&probe, hole)?;
+            let greatest = 2.0 * room_about_axis(&probe, hole).map_err(|e| e.blamed_on(&at))?;
             faults.push(if greatest > 0.0 {
                 fault.max(greatest)
             } else {

@@ -24,6 +24,13 @@ pub enum BuildError {
     Topology(coolinggen_brep::BuildError),
     /// A kernel method.
     Kernel(NurbsError),
+    /// A solid was built and is not what it must be.
+    Unsound {
+        /// Name of the solid.
+        solid: String,
+        /// What is wrong with it.
+        what: String,
+    },
 }
 
 impl BuildError {
@@ -41,7 +48,13 @@ impl BuildError {
                 fault.value(*needed).max(*radius).hint("a thinner shell, or smaller radii, leave the room")
             }
             Refusal::FilletTooLarge { radius, greatest, .. } => fault.value(*radius).max(*greatest),
-            Refusal::ChamberTooShort { length } => fault.value(*length).min(0.0),
+            Refusal::ChamberTooShort { length, .. } => fault
+                .value(*length)
+                .min(0.0)
+                .hint("walls farther apart, steeper or thinner, or smaller fillets"),
+            Refusal::Hump { bend, .. } => fault
+                .value(*bend)
+                .hint("a rounder side, or a thinner section there: chambers and holes are placed along the camber line"),
             Refusal::NoseTooSharp => fault.hint("a thinner shell at the nose, or a greater fillet radius"),
             Refusal::NoInscribedCircle | Refusal::WallOutside { .. } => fault,
         }
@@ -71,13 +84,32 @@ impl BuildError {
         Self::Refused(counted.collect())
     }
 
-    /// The failure as faults of the design.
+    /// The failure as a fault of the parameter at `pointer`, unless it names its parameters already.
+    pub(super) fn blamed_on(self, pointer: &str) -> Self {
+        Self::Refused(self.faults_at(pointer))
+    }
+
+    /// The failure as faults of the design; what names no parameter is the blade's.
     pub fn into_faults(self) -> Vec<Fault> {
-        match self {
-            Self::Refused(faults) => faults,
-            Self::Blade(error) => vec![Fault::new("/blade", "geometry", error.to_string())],
-            other => vec![Fault::new("", "geometry", other.to_string())],
-        }
+        self.faults_at("/blade")
+    }
+
+    fn faults_at(self, pointer: &str) -> Vec<Fault> {
+        let message = self.to_string();
+        let hint = match self {
+            Self::Refused(faults) => return faults,
+            Self::Blade(BladeError::OutsideContours { .. }) => {
+                "hub and shroud must run past everything that stands between them"
+            }
+            Self::Blade(_) | Self::NoCrossing { .. } => {
+                "what runs from hub to tip must cross every stream surface on its way, once and not along it"
+            }
+            Self::Kernel(_) | Self::Topology(_) => "a shape there is too small, too sharp or folded",
+            Self::Unsound { .. } => {
+                "smoother contours and blade surfaces, or other places of what meets there, help"
+            }
+        };
+        vec![Fault::new(pointer, "geometry", message).hint(hint)]
     }
 }
 
@@ -102,6 +134,7 @@ impl fmt::Display for BuildError {
             }
             Self::Topology(error) => error.fmt(f),
             Self::Kernel(error) => error.fmt(f),
+            Self::Unsound { solid, what } => write!(f, "the solid {solid} came out unsound: {what}"),
         }
     }
 }

@@ -76,6 +76,8 @@ fn chamber_rings<'s>(stack: &'s Stack, plan: &Plan, k: usize) -> (Vec<RingSectio
         match ring {
             Ok(ring) => rings.push(RingSection { stream: &section.stream, outline: &offset.outline, ring }),
             Err(refusal) => {
+                let radius = plan.chambers[k].fillet_radius.at(section.stream.v());
+                let refusal = refusal.with_radius_in_space(radius);
                 let at = blame(&pointer, &refusal);
                 refusals.push(BuildError::fault(&at, section.stream.v(), &refusal));
             }

@@ -105,7 +105,14 @@ fn foremost(blade: &Blade, nodes: &[f64], trailing: f64) -> f64 {
 
 impl Section {
     /// The section of `blade` on the stream surface at span fraction `v`.
+    ///
+    /// # Errors
+    /// Faults of the blade where it has no such section.
     pub(super) fn new(blade: &Blade, space: &StreamSpace, grid: &Grid, v: f64) -> Result<Self, BuildError> {
+        Self::cut(blade, space, grid, v).map_err(|e| e.blamed_on("/blade"))
+    }
+
+    fn cut(blade: &Blade, space: &StreamSpace, grid: &Grid, v: f64) -> Result<Self, BuildError> {
         let stream = space.surface(v)?;
         let crossings = blade.profile(&stream, &grid.nodes)?;
         let (blade_v, points): (Vec<f64>, Vec<DVec2>) = crossings.into_iter().unzip();
@@ -172,17 +179,54 @@ pub(super) fn wall_lines(sections: &[Section], wall: &WallPlan) -> Result<Vec<Wa
     Ok(lines)
 }
 
-/// Span fractions of the sections: both ends of every chamber, and between them steps of at most a tenth.
+/// Greatest step of the span fraction from section to section.
+const GREATEST_STEP: f64 = 0.1;
+/// Least steps within a chamber: a cubic over the span needs four sections.
+const LEAST_STEPS: usize = 3;
+
+/// Span fractions of the sections: both ends of every chamber, and between them steps of at most a tenth, but three
+/// at least in every chamber.
 pub(super) fn span_fractions(spans: &[[f64; 2]]) -> Vec<f64> {
     let mut ends: Vec<f64> = spans.iter().flatten().copied().collect();
     ends.sort_by(f64::total_cmp);
     ends.dedup();
+    let mut parts: Vec<usize> =
+        ends.windows(2).map(|e| ((e[1] - e[0]) / GREATEST_STEP).ceil().max(1.0) as usize).collect();
+    for span in spans {
+        let within = ends.windows(2).zip(&mut parts).filter(|(e, _)| e[0] >= span[0] && e[1] <= span[1]);
+        let within: Vec<&mut usize> = within.map(|(_, parts)| parts).collect();
+        let steps: usize = within.iter().map(|parts| **parts).sum();
+        let times = LEAST_STEPS.div_ceil(steps.max(1));
+        within.into_iter().for_each(|parts| *parts *= times);
+    }
     let mut fractions = Vec::new();
-    for pair in ends.windows(2) {
+    for (pair, parts) in ends.windows(2).zip(parts) {
         let gap = pair[1] - pair[0];
-        let parts = (gap / 0.1).ceil().max(1.0) as usize;
         fractions.extend((0..parts).map(|i| pair[0] + gap * i as f64 / parts as f64));
     }
     fractions.extend(ends.last());
     fractions
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_chamber_has_four_sections_at_least_and_its_own_ends() {
+        for spans in [
+            vec![[0.0, 1.0]],
+            vec![[0.2, 0.21]],
+            vec![[0.0, 0.93], [0.1, 0.3], [0.25, 0.93]],
+            vec![[0.0, 0.5], [0.45, 0.5], [0.5, 1.0]],
+        ] {
+            let fractions = span_fractions(&spans);
+            assert!(fractions.windows(2).all(|f| f[1] > f[0] && f[1] - f[0] < GREATEST_STEP + 1e-12));
+            for span in spans {
+                let own = fractions.iter().filter(|v| (span[0]..=span[1]).contains(*v)).count();
+                assert!(own > LEAST_STEPS, "{span:?}: {fractions:?}");
+                assert!(span.iter().all(|end| fractions.contains(end)));
+            }
+        }
+    }
 }

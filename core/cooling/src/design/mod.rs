@@ -5,7 +5,9 @@
 
 mod chambers;
 mod radial_holes;
+mod read;
 mod schema;
+mod spelling;
 
 pub use chambers::{Chamber, Shell, Wall};
 pub use radial_holes::{HolePlacement, RadialHole};
@@ -15,7 +17,6 @@ use crate::plan::Plan;
 use coolinggen_blade::{BladeSource, Fault, SpaceSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 use std::path::Path;
 
 /// The format this version reads.
@@ -77,11 +78,9 @@ impl Design {
             let message = format!("the design has {} bytes", text.len());
             return Err(vec![Fault::new("", "too_large", message).max(LARGEST as f64).unit("bytes")]);
         }
-        let value: Value = serde_json::from_str(text).map_err(|e| {
-            let message = format!("not JSON: {e}");
-            vec![Fault::new("", "syntax", message).hint("numbers such as NaN and comments are not JSON")]
-        })?;
-        let mut faults = schema_faults(&value);
+        let (value, mut faults) = read::read(text)?;
+        let cut: Vec<String> = faults.iter().map(|f| f.pointer.clone()).collect();
+        faults.extend(schema_faults(&value).into_iter().filter(|f| !cut.contains(&f.pointer)));
         if !faults.is_empty() {
             // What is of the right types may be wrong in other ways, too: say so at once.
             if let Ok(design) = serde_json::from_value::<Self>(value) {

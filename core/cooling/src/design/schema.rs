@@ -4,6 +4,7 @@
 //! walker below knows the part of JSON Schema that the design types use, and nothing else.
 
 use super::Design;
+use super::spelling::nearest;
 use coolinggen_blade::Fault;
 use serde_json::{Map, Value};
 use std::sync::OnceLock;
@@ -48,9 +49,14 @@ struct Limits {
 impl Limits {
     fn narrowed(&self, schema: &'static Map<String, Value>) -> Self {
         let number = |key: &str| schema.get(key).and_then(Value::as_f64);
+        // What the type holds limits what its field does not.
+        let widest = match schema.get("format").and_then(Value::as_str) {
+            Some("uint32") => Some(f64::from(u32::MAX)),
+            _ => None,
+        };
         Self {
             minimum: number("minimum").or(self.minimum),
-            maximum: number("maximum").or(self.maximum),
+            maximum: number("maximum").or(self.maximum).or(widest),
             unit: schema.get("unit").and_then(Value::as_str).or(self.unit),
             law: self.law || schema.get("law") == Some(&Value::Bool(true)),
         }
@@ -349,25 +355,4 @@ fn name_matches(pattern: &str, text: &str) -> bool {
     first
         && text.len() <= most + 1
         && letters.all(|c| c.is_ascii_alphanumeric() || extra.as_bytes().contains(&c))
-}
-
-/// The known name nearest to a misspelt one, if it is near.
-fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
-    known.map(|k| (edit_distance(name, k), k)).filter(|(d, k)| *d <= 1 + k.len() / 4).min().map(|(_, k)| k)
-}
-
-/// Levenshtein's distance.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let a: Vec<char> = a.chars().take(64).collect();
-    let mut row: Vec<usize> = (0..=a.len()).collect();
-    for (j, c) in b.chars().take(64).enumerate() {
-        let mut diagonal = row[0];
-        row[0] = j + 1;
-        for i in 0..a.len() {
-            let substituted = diagonal + usize::from(a[i] != c);
-            diagonal = row[i + 1];
-            row[i + 1] = substituted.min(row[i] + 1).min(diagonal + 1);
-        }
-    }
-    row[a.len()]
 }

@@ -1,7 +1,8 @@
 //! A chamber of one section: a ring of eight segments.
 
-use super::camber::{Camber, MarchLimits};
+use super::camber::Camber;
 use super::closure::{End, closure};
+use super::march::MarchLimits;
 use super::outline::Outline;
 use super::refusal::Refusal;
 use super::segment::Segment;
@@ -25,6 +26,25 @@ pub enum ClosureKind {
     },
     /// A wall with fillets.
     Wall(WallRequest),
+}
+
+impl ClosureKind {
+    fn describe(&self, end: End) -> String {
+        match (self, end) {
+            (Self::Wall(wall), _) => format!("wall {}", wall.name),
+            (_, End::Front) => "the leading end".to_owned(),
+            (_, End::Back) => "the trailing end".to_owned(),
+        }
+    }
+
+    /// The same closure with the radii of its arcs times `factor`.
+    fn with_radii_times(&self, factor: f64) -> Self {
+        match self {
+            Self::Natural { .. } => self.clone(),
+            Self::Rounded { radius } => Self::Rounded { radius: radius * factor },
+            Self::Wall(wall) => Self::Wall(WallRequest { fillet: wall.fillet * factor, ..wall.clone() }),
+        }
+    }
 }
 
 /// A wall in the chart of one section; lengths in mm of the chart.
@@ -70,6 +90,57 @@ pub struct ChamberRing {
 /// A [`Refusal`] where the geometry does not exist.
 pub fn chamber_ring(request: &RingRequest<'_>) -> Result<ChamberRing, Refusal> {
     let RingRequest { outline, camber, front, back } = request;
+    ring(outline, camber, front, back).map_err(|refusal| with_greatest_fillet(request, refusal))
+}
+
+/// Least factor on the radii that is tried for a chamber that cannot be built.
+const LEAST_FACTOR: f64 = 1e-3;
+/// Accuracy of the greatest factor, relative.
+const FACTOR_ACCURACY: f64 = 1e-9;
+
+/// The refusal, or, where the chamber could be built with smaller radii, the greatest that fit: by bisection on a
+/// factor for all of them with the same construction, as only refusals pay for it.
+fn with_greatest_fillet(request: &RingRequest<'_>, refusal: Refusal) -> Refusal {
+    let RingRequest { outline, camber, front, back } = request;
+    let named = match &refusal {
+        Refusal::FilletTooLarge { wall, .. } | Refusal::WallOutside { wall } => Some(wall),
+        Refusal::ChamberTooShort { .. } => None,
+        _ => return refusal,
+    };
+    let walls = [front, back].into_iter().filter_map(|kind| match kind {
+        ClosureKind::Wall(wall) => Some(wall),
+        ClosureKind::Natural { .. } | ClosureKind::Rounded { .. } => None,
+    });
+    let mut candidates = walls.filter(|wall| named.is_none_or(|name| *name == wall.name));
+    let Some(wall) = candidates.next() else { return refusal };
+    let builds = |factor: f64| {
+        ring(outline, camber, &front.with_radii_times(factor), &back.with_radii_times(factor)).is_ok()
+    };
+    let (mut low, mut high) = (0.5, 1.0);
+    while !builds(low) {
+        (low, high) = (0.5 * low, low);
+        if low < LEAST_FACTOR {
+            // Not the fillets: the two sides have crossed already where the wall stands.
+            return match refusal {
+                Refusal::FilletTooLarge { wall, .. } => Refusal::WallOutside { wall },
+                other => other,
+            };
+        }
+    }
+    while high - low > FACTOR_ACCURACY * low {
+        let middle = 0.5 * (low + high);
+        *(if builds(middle) { &mut low } else { &mut high }) = middle;
+    }
+    Refusal::FilletTooLarge { wall: wall.name.clone(), radius: wall.fillet, greatest: wall.fillet * low }
+}
+
+fn ring(
+    outline: &Outline,
+    camber: &Camber,
+    front: &ClosureKind,
+    back: &ClosureKind,
+) -> Result<ChamberRing, Refusal> {
+    let ends = [front.describe(End::Front), back.describe(End::Back)];
     let front = closure(outline, camber, front, End::Front)?;
     let back = closure(outline, camber, back, End::Back)?;
     let speed = |u: f64| outline.frame(u).speed;
@@ -79,7 +150,7 @@ pub fn chamber_ring(request: &RingRequest<'_>) -> Result<ChamberRing, Refusal> {
     ];
     let length = lengths[0].min(lengths[1]);
     if !(length > 0.0) {
-        return Err(Refusal::ChamberTooShort { length });
+        return Err(Refusal::ChamberTooShort { ends, length });
     }
     let [b0, b1, b2] = back.segments;
     let [f0, f1, f2] = front.segments;
@@ -97,7 +168,8 @@ impl Camber {
     /// leading edge's end to the nose; and where the radius falls below `least_radius` at (front, back).
     ///
     /// # Errors
-    /// [`Refusal::NoInscribedCircle`].
+    /// [`Refusal::NoInscribedCircle`]; [`Refusal::Hump`] where a circle comes near to osculating a side between the
+    /// edges.
     pub fn of(
         outline: &Outline,
         nose: f64,
@@ -115,7 +187,8 @@ impl Camber {
             front_radius: least_radius.0,
             back_radius: least_radius.1,
             step,
+            tips: [nose, start, end].map(|u| outline.frame(u).point),
         };
-        Self::march(outline, nose, &limits)
+        Self::within(outline, nose, &limits)
     }
 }

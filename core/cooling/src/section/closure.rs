@@ -1,7 +1,8 @@
 //! What closes a chamber at its front and back: a nose, a tail, or a wall.
 
-use super::camber::{Camber, Contact, circle_of_radius};
+use super::camber::{Camber, Contact};
 use super::chamber::{ClosureKind, WallRequest};
+use super::march::circle_of_radius;
 use super::outline::Outline;
 use super::refusal::Refusal;
 use super::segment::Segment;
@@ -84,11 +85,8 @@ fn wall_closure(
     let (foot_a, foot_b) = (center_a - normal * wall.fillet, center_b - normal * wall.fillet);
     let straight = (foot_a - foot_b).dot(wall.direction);
     if !(straight > 0.0) {
-        // Each fillet takes about (1 + 1 / tan) of its radius off the straight part; a ratio of lengths is
-        // near enough for "about".
-        let whole = straight + 2.0 * wall.fillet;
-        let greatest = (0.5 * whole).max(0.0).min(wall.fillet);
-        return Err(Refusal::FilletTooLarge { wall: wall.name.clone(), radius: wall.fillet, greatest });
+        // How great they may be is sought where the whole chamber is known.
+        return Err(Refusal::FilletTooLarge { wall: wall.name.clone(), radius: wall.fillet, greatest: 0.0 });
     }
     let (a, b) = (outline.frame(suction).point, outline.frame(pressure).point);
     let segments = match end {

@@ -7,15 +7,16 @@
 mod camber;
 mod chamber;
 mod closure;
+mod march;
 mod outline;
 mod refusal;
 mod segment;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use camber::circle_of_radius;
 pub use camber::{Camber, Contact};
 pub use chamber::{ChamberRing, ClosureKind, RingRequest, SEGMENTS, WallRequest, chamber_ring};
+pub(crate) use march::circle_of_radius;
 pub use outline::{Frame, Outline};
 pub use refusal::Refusal;
 pub use segment::Segment;

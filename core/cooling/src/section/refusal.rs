@@ -7,6 +7,17 @@ use std::fmt;
 pub enum Refusal {
     /// No circle fits between the two sides where one must.
     NoInscribedCircle,
+    /// A side bends more tightly than the circle between the sides: the camber line would fork into the hump.
+    Hump {
+        /// Name of the side.
+        side: &'static str,
+        /// Where, as a fraction of the side from the foremost point, by the blade's parameter.
+        fraction: f64,
+        /// Radius of the bend.
+        bend: f64,
+        /// Radius of the circle that touches both sides.
+        radius: f64,
+    },
     /// The greatest inscribed circle of a chamber is smaller than its end radius: the shell leaves no room.
     ChamberVanishes {
         /// Radius of the greatest circle that fits.
@@ -14,13 +25,13 @@ pub enum Refusal {
         /// Radius needed.
         needed: f64,
     },
-    /// The two fillets of a wall overlap.
+    /// The fillets at a wall leave the chamber no room: they overlap, or reach past the chamber's other end.
     FilletTooLarge {
         /// Name of the wall.
         wall: String,
         /// The fillet radius asked for.
         radius: f64,
-        /// About the greatest radius that leaves a straight part.
+        /// The greatest radius with which the section can be built.
         greatest: f64,
     },
     /// A wall's fillet touches no point of a side: the wall stands outside the offset profile.
@@ -28,8 +39,11 @@ pub enum Refusal {
         /// Name of the wall.
         wall: String,
     },
-    /// The front closure of a chamber reaches past its back closure.
+    /// The front closure of a chamber reaches past its back closure, on one side or on both: walls that cross, or
+    /// stand too near to each other or to an end.
     ChamberTooShort {
+        /// What closes the chamber in front and at the back.
+        ends: [String; 2],
         /// Length left along the shorter side, negative.
         length: f64,
     },
@@ -37,24 +51,50 @@ pub enum Refusal {
     NoseTooSharp,
 }
 
+impl Refusal {
+    /// The same refusal with radii in space: the one in question was asked for as `asked` mm there.
+    #[must_use]
+    pub fn with_radius_in_space(self, asked: f64) -> Self {
+        match self {
+            Self::FilletTooLarge { wall, radius, greatest } => {
+                Self::FilletTooLarge { wall, radius: asked, greatest: greatest * (asked / radius) }
+            }
+            Self::ChamberVanishes { radius, needed } => {
+                Self::ChamberVanishes { radius: radius * (asked / needed), needed: asked }
+            }
+            other => other,
+        }
+    }
+}
+
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoInscribedCircle => write!(f, "the two sides leave no room for an inscribed circle"),
+            Self::Hump { side, fraction, bend, radius } => write!(
+                f,
+                "at {:.0} % of the {side} the surface bends with a radius of {bend:.3} mm, as tightly as the circle of \
+                 {radius:.3} mm that touches both sides: there is no one camber line past such a hump",
+                100.0 * fraction
+            ),
             Self::ChamberVanishes { radius, needed } => write!(
                 f,
                 "the shell leaves room for a circle of radius {radius:.3} mm, the chamber's end needs {needed:.3} mm"
             ),
             Self::FilletTooLarge { wall, radius, greatest } => write!(
                 f,
-                "the fillets of radius {radius:.3} mm overlap at wall {wall}; about {greatest:.3} mm would fit"
+                "fillets of radius {radius:.3} mm do not fit at wall {wall}, the greatest that fits has {greatest:.4} mm"
             ),
             Self::WallOutside { wall } => write!(f, "wall {wall} does not meet both sides of the chamber"),
             Self::NoseTooSharp => {
                 write!(f, "the shell is too thick for the sharpness of the nose where the chamber ends")
             }
-            Self::ChamberTooShort { length } => {
-                write!(f, "the chamber's ends overlap by {:.3} mm", -length)
+            Self::ChamberTooShort { ends: [front, back], length } => {
+                write!(
+                    f,
+                    "{front} and {back} cross in the chamber or overlap, by {:.3} mm along a side",
+                    -length
+                )
             }
         }
     }

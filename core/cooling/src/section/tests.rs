@@ -159,13 +159,27 @@ fn a_wall_has_its_thickness() {
 }
 
 #[test]
-fn refuses_fillets_that_overlap() {
+fn the_greatest_fillet_fits_and_no_greater_one() {
     let outline = outline();
     let camber = camber_of(&outline);
-    let back = ClosureKind::Wall(WallRequest { fillet: 4.0, ..wall(&camber, 0.7) });
-    let result = chamber_ring(&RingRequest { outline: &outline, camber: &camber, front: natural(), back });
-    assert!(
-        matches!(result, Err(Refusal::FilletTooLarge { .. } | Refusal::WallOutside { .. })),
-        "{result:?}"
-    );
+    let at =
+        |position: f64, fillet: f64| ClosureKind::Wall(WallRequest { fillet, ..wall(&camber, position) });
+    // Fillets that overlap on a wall, that reach past both sides, and that meet those of the next wall.
+    let chambers: [&dyn Fn(f64) -> [ClosureKind; 2]; 3] = [
+        &|fillet| [natural(), at(0.7, fillet)],
+        &|fillet| [at(0.4, fillet), ClosureKind::Rounded { radius: 0.5 * fillet }],
+        &|fillet| [at(0.40, fillet), at(0.46, fillet)],
+    ];
+    for (i, kinds) in chambers.into_iter().enumerate() {
+        let build = |fillet: f64| {
+            let [front, back] = kinds(fillet);
+            chamber_ring(&RingRequest { outline: &outline, camber: &camber, front, back })
+        };
+        let Err(Refusal::FilletTooLarge { radius, greatest, .. }) = build(5.0) else {
+            panic!("{i}: {:?}", build(5.0));
+        };
+        assert_eq!(radius, 5.0);
+        assert!(build(0.999_999 * greatest).is_ok(), "{i}: {greatest}");
+        assert!(build(1.000_001 * greatest).is_err(), "{i}: {greatest}");
+    }
 }
