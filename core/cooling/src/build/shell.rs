@@ -60,21 +60,21 @@ pub(super) fn offset_section(
     let v = section.stream.v();
     let asked: Vec<f64> = grid.nodes.iter().map(|&u| asked_thickness(grid, shell, u, v)).collect();
     let refused = |refusal: &Refusal| BuildError::refused("/cooling/shell", v, refusal);
+    let room = room(section, 0.5 * (shell.pressure_side.at(v) + shell.suction_side.at(v)));
+    let vanishes = |needed: f64| refused(&Refusal::ChamberVanishes { radius: room.max(0.0), needed });
+    // Past the thickest circle no chamber is left, and none of what follows has a solution.
+    if room <= ends.front.min(ends.back) {
+        return Err(vanishes(ends.front.min(ends.back)));
+    }
     let (radii, step) = (ends.in_chart(section), section.march_step());
     let camber_of = |outline: &Outline| {
-        Camber::of(outline, grid.nose, grid.leading_edge, radii, step).map_err(|refusal| refused(&refusal))
+        Camber::of(outline, grid.nose, grid.leading_edge, radii, step).map_err(|refusal| match refusal {
+            Refusal::NoInscribedCircle if room <= ends.front.max(ends.back) => {
+                vanishes(ends.front.max(ends.back))
+            }
+            other => refused(&other),
+        })
     };
-
-    // Past the thickest circle no chamber is left, and none of what follows has a solution.
-    let thickest = section.camber.contacts().iter().max_by(|a, b| a.radius.total_cmp(&b.radius));
-    if let Some(circle) = thickest {
-        let shell = 0.5 * (shell.pressure_side.at(v) + shell.suction_side.at(v));
-        let (radius, needed) =
-            (circle.radius * section.scale(circle.center) - shell, ends.front.max(ends.back));
-        if radius <= needed {
-            return Err(refused(&Refusal::ChamberVanishes { radius: radius.max(0.0), needed }));
-        }
-    }
 
     // Thickness in the chart, first as if the blade stood upright.
     let frames: Vec<_> = grid.nodes.iter().map(|&u| section.outline.frame(u)).collect();
@@ -147,6 +147,12 @@ pub(super) fn offset_section(
     let camber = camber_of(&outline)?;
     let circle = circle_of_radius(&outline, camber.front(), radii.0);
     Ok(OffsetSection { outline, camber, sharp_nose, circle })
+}
+
+/// About the radius, mm in space, of the thickest circle inside a shell of the given thickness.
+fn room(section: &Section, shell: f64) -> f64 {
+    let radius = |c: &Contact| c.radius * section.scale(c.center);
+    section.camber.contacts().iter().map(radius).fold(0.0, f64::max) - shell
 }
 
 /// Where, about the leading edge, the surface of the shell would be sharper than half the fillet radius, or not exist
