@@ -14,6 +14,7 @@
 mod boundary;
 mod bounds;
 mod build;
+mod cast;
 mod check;
 mod cursor;
 mod domain;
@@ -30,6 +31,7 @@ mod span;
 
 pub use bounds::{BOUNDS_TOLERANCE_MM, Bounds};
 pub use build::{BORDER_TOLERANCE_MM, BuildError, LoopEdges, Pcurve, interpolated_pcurve, straight_pcurve};
+pub use cast::{CastHit, Caster};
 pub use check::{EDGE_TOLERANCE_MM, EdgePlace, Fault, SolidCheck, VERTEX_TOLERANCE_MM};
 pub use domain::{FaceDomain, signed_area};
 pub use geometry::{EdgeCurve, Plane, Revolution, RevolutionKind, SurfaceGeometry};

@@ -1,6 +1,6 @@
 //! The plan: a design's cooling with its laws made ready and everything checked that needs no geometry.
 
-use crate::design::{Cooling, HolePlacement};
+use crate::design::{Chamber, Cooling, FilmRow, HolePlacement, HoleShape, Side};
 use coolinggen_blade::{Fault, Law, LawSpec, Pointer};
 use std::collections::HashSet;
 
@@ -15,6 +15,8 @@ pub struct Plan {
     pub chambers: Vec<ChamberPlan>,
     /// Radial holes.
     pub radial_holes: Vec<RadialHolePlan>,
+    /// Rows of film holes.
+    pub film_rows: Vec<FilmRowPlan>,
 }
 
 /// Shell thickness, mm.
@@ -72,6 +74,53 @@ pub enum PlacementPlan {
     Stream(Law, Law),
     /// U and V, and where V is measured from.
     Bitangent(Law, Law, Option<[f64; 2]>),
+}
+
+/// A row of film holes; see [`crate::design::FilmRow`].
+#[derive(Clone, Debug)]
+pub struct FilmRowPlan {
+    /// Name.
+    pub name: String,
+    /// Side of the blade.
+    pub side: Side,
+    /// Where on the side.
+    pub at: RowPlacement,
+    /// Span fractions.
+    pub span: [f64; 2],
+    /// Number of holes or greatest pitch, mm.
+    pub holes: RowHoles,
+    /// Fraction of the pitch.
+    pub stagger: f64,
+    /// The chamber that must feed it.
+    pub chamber: Option<String>,
+    /// Millimetres.
+    pub diameter: Law,
+    /// Degrees.
+    pub inclination_deg: Law,
+    /// Degrees.
+    pub compound_deg: Law,
+    /// Shape.
+    pub shape: HoleShape,
+}
+
+/// Where a row runs on its side.
+#[derive(Clone, Debug)]
+pub enum RowPlacement {
+    /// Fraction of the side's length.
+    Position(Law),
+    /// Length from the foremost point, mm.
+    Distance(Law),
+    /// Fraction of the camber line.
+    Camber(Law),
+}
+
+/// How many holes a row has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RowHoles {
+    /// As many.
+    Count(u32),
+    /// As few as keep this distance, mm.
+    Pitch(f64),
 }
 
 /// Span fractions nearer than this are one.
@@ -133,7 +182,65 @@ impl Maker {
         let walls = self.walls(cooling, &root.at("walls"));
         let chambers = self.chambers(cooling, &root.at("chambers"));
         let radial_holes = self.radial_holes(cooling, &root.at("radial_holes"));
-        Plan { shell, walls, chambers, radial_holes }
+        self.unique(cooling.film_rows.iter().map(|r| r.name.as_str()), &root.at("film_rows"));
+        let film_rows = self.film_rows(cooling, &root.at("film_rows"));
+        Plan { shell, walls, chambers, radial_holes, film_rows }
+    }
+
+    fn film_rows(&mut self, cooling: &Cooling, list: &Pointer) -> Vec<FilmRowPlan> {
+        let rows = cooling.film_rows.iter().enumerate();
+        rows.filter_map(|(i, row)| self.film_row(row, &cooling.chambers, &list.at(i))).collect()
+    }
+
+    /// None, with faults, where the row's place or number is not said once.
+    fn film_row(&mut self, row: &FilmRow, chambers: &[Chamber], at: &Pointer) -> Option<FilmRowPlan> {
+        let mut law = |spec: &Option<LawSpec>, field: &str| spec.as_ref().map(|s| self.law(s, &at.at(field)));
+        let placements = [
+            law(&row.surface_position, "surface_position").map(RowPlacement::Position),
+            law(&row.surface_distance, "surface_distance").map(RowPlacement::Distance),
+            law(&row.camber_position, "camber_position").map(RowPlacement::Camber),
+        ];
+        let numbers = [row.count.map(RowHoles::Count), row.pitch.map(RowHoles::Pitch)];
+        let hole = at.at("hole");
+        let diameter = self.law(&row.hole.diameter, &hole.at("diameter"));
+        let inclination_deg = self.law(&row.hole.inclination_deg, &hole.at("inclination_deg"));
+        let compound_deg = self.law(&row.hole.compound_deg, &hole.at("compound_deg"));
+        if row.span[1] < row.span[0] {
+            let message =
+                format!("the span [{}, {}] must not end before it starts", row.span[0], row.span[1]);
+            let fault = Fault::new(at.at("span"), "order", message).value(row.span[1]).min(row.span[0]);
+            self.faults.push(fault.unit("span fraction"));
+        }
+        if let Some(name) = row.chamber.as_ref().filter(|name| chambers.iter().all(|c| c.name != **name)) {
+            let message = format!("there is no chamber \"{name}\"");
+            self.faults.push(Fault::new(at.at("chamber"), "unknown_name", message).value(name.as_str()));
+        }
+        let at_side = self.one_of(placements, at, "surface_position, surface_distance or camber_position");
+        let holes = self.one_of(numbers, at, "count or pitch");
+        Some(FilmRowPlan {
+            name: row.name.clone(),
+            side: row.side,
+            at: at_side?,
+            span: row.span,
+            holes: holes?,
+            stagger: row.stagger,
+            chamber: row.chamber.clone(),
+            diameter,
+            inclination_deg,
+            compound_deg,
+            shape: row.hole.shape.clone(),
+        })
+    }
+
+    /// The one that is given, or a fault.
+    fn one_of<T, const N: usize>(&mut self, given: [Option<T>; N], at: &Pointer, names: &str) -> Option<T> {
+        let mut given: Vec<T> = given.into_iter().flatten().collect();
+        if given.len() == 1 {
+            return given.pop();
+        }
+        let message = format!("exactly one of {names} must be given, {} are", given.len());
+        self.faults.push(Fault::new(at.clone(), "one_of", message).value(given.len()).min(1.0).max(1.0));
+        None
     }
 
     fn walls(&mut self, cooling: &Cooling, list: &Pointer) -> Vec<WallPlan> {

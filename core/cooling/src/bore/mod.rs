@@ -11,9 +11,9 @@ mod ring;
 mod shape;
 mod target;
 
-pub(crate) use build::{BoreNames, Bored, Drill};
+pub(crate) use build::{BoreNames, Drill};
 pub(crate) use shape::{BoreSection, BoreShape, Frame, circle, rounded_rectangle, stretched_circle};
-pub(crate) use target::{Mouth, Target};
+pub(crate) use target::Mouth;
 
 use std::fmt;
 

@@ -1,11 +1,13 @@
 //! Solids from faces: the metal, and a coolant solid for every passage.
 
 use super::cap::{Ring, add_cap, points_up};
-use super::clearance;
+use super::clearance::{self, ChamberPolygon};
 use super::error::BuildError;
+use super::film::{Blank, FilmHoleGeometry, add_film_rows};
 use super::passages::{Passage, add_chambers};
 use super::radial_holes::{RadialHoleGeometry, patches, place};
-use super::sections::{Grid, Section};
+use super::sections::{Grid, Section, span_fractions};
+use super::sides::Sides;
 use super::stack::Stack;
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
@@ -18,7 +20,7 @@ use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
 pub struct CooledBlade {
     /// The B-rep: solid `metal`, and `coolant/<passage>` for every passage.
     pub model: Model,
-    /// Faces of the outer surface.
+    /// Faces of the outer surface, and of the breakouts in it.
     pub outer_faces: Vec<FaceId>,
     /// Faces between metal and coolant.
     pub passage_faces: Vec<FaceId>,
@@ -30,6 +32,8 @@ pub struct CooledBlade {
     pub end_surfaces: [StreamSurface; 2],
     /// The radial holes.
     pub radial_holes: Vec<RadialHoleGeometry>,
+    /// The film holes, row by row.
+    pub film_holes: Vec<FilmHoleGeometry>,
 }
 
 /// Builds metal and coolant.
@@ -39,52 +43,92 @@ pub struct CooledBlade {
 pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBlade, BuildError> {
     let mut model = Model::default();
     let ends = [space.surface(0.0)?, space.surface(1.0)?];
-    let outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
-    let mut passages = Vec::new();
-    let mut radial_holes = Vec::new();
+    let mut outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
+    let (mut passages, mut radial_holes, mut film_holes) = (Vec::new(), Vec::new(), Vec::new());
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
         let grid = Grid::new(blade)?;
         let mut polygons = Vec::new();
+        let mut sections = Vec::new();
         if let (Some(shell), false) = (&plan.shell, plan.chambers.is_empty()) {
-            let stack = Stack::new(blade, space, &grid, plan, shell);
-            (passages, polygons) = stack
-                .and_then(|stack| add_chambers(&mut model, blade, &stack, plan))
-                .map_err(|e| e.blamed_on("/cooling/chambers"))?;
+            let blamed = |e: BuildError| e.blamed_on("/cooling/chambers");
+            let stack = Stack::new(blade, space, &grid, plan, shell).map_err(blamed)?;
+            (passages, polygons) = add_chambers(&mut model, blade, &stack, plan).map_err(blamed)?;
+            sections = stack.sections;
         }
         if !plan.radial_holes.is_empty() {
-            let sections = [Section::new(blade, space, &grid, 0.0)?, Section::new(blade, space, &grid, 1.0)?];
-            let pointer = |k: usize| format!("/cooling/radial_holes/{k}");
-            for (k, hole) in plan.radial_holes.iter().enumerate() {
-                let placed = place(blade, [&sections[0], &sections[1]], hole);
-                radial_holes.push(placed.map_err(|e| e.blamed_on(&pointer(k)))?);
+            radial_holes = place_radial_holes(blade, space, &grid, plan, &polygons)?;
+            passages.extend(add_radial_holes(&mut model, &radial_holes, &ends)?);
+        }
+        if !plan.film_rows.is_empty() {
+            if sections.is_empty() {
+                let fractions = span_fractions(&[[0.0, 1.0]]);
+                sections = fractions
+                    .iter()
+                    .map(|&v| Section::new(blade, space, &grid, v))
+                    .collect::<Result<_, _>>()?;
             }
-            clearance::check(blade, &radial_holes, &polygons)?;
-            for (k, hole) in radial_holes.iter().enumerate() {
-                let tube = patches(hole).and_then(|p| add_tube(&mut model, p, [&ends[0], &ends[1]]));
-                let CutTube { faces, rings } = tube.map_err(|e| e.blamed_on(&pointer(k)))?;
-                let path = format!("radial_hole/{}", hole.name);
-                passages.push(Passage {
-                    name: hole.name.clone(),
-                    path,
-                    faces,
-                    rings,
-                    outward: true,
-                    span: [0.0, 1.0],
-                });
-            }
+            let sides = Sides::new(blade, &grid, &sections);
+            let (outer, outward) = (&mut outer.faces, blade.outward);
+            let mut blank = Blank { model: &mut model, outer, passages: &mut passages, outward };
+            film_holes = add_film_rows(&mut blank, &sides, &plan.film_rows)?;
         }
     }
     let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
     let (end_faces, closed_ends) = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
+    let mut outer_faces = outer.faces;
+    outer_faces.extend(film_holes.iter().flat_map(|hole| &hole.exits));
     Ok(CooledBlade {
         model,
-        outer_faces: outer.faces,
+        outer_faces,
         passage_faces,
         end_faces,
         closed_ends,
         end_surfaces: ends,
         radial_holes,
+        film_holes,
     })
+}
+
+/// Where the radial holes are, clear of everything.
+fn place_radial_holes(
+    blade: &Blade,
+    space: &StreamSpace,
+    grid: &Grid,
+    plan: &Plan,
+    polygons: &[ChamberPolygon],
+) -> Result<Vec<RadialHoleGeometry>, BuildError> {
+    let sections = [Section::new(blade, space, grid, 0.0)?, Section::new(blade, space, grid, 1.0)?];
+    let placed = plan.radial_holes.iter().enumerate().map(|(k, hole)| {
+        place(blade, [&sections[0], &sections[1]], hole).map_err(|e| e.blamed_on(&radial_hole_pointer(k)))
+    });
+    let placed = placed.collect::<Result<Vec<_>, _>>()?;
+    clearance::check(blade, &placed, polygons)?;
+    Ok(placed)
+}
+
+fn add_radial_holes(
+    model: &mut Model,
+    holes: &[RadialHoleGeometry],
+    ends: &[StreamSurface; 2],
+) -> Result<Vec<Passage>, BuildError> {
+    let passages = holes.iter().enumerate().map(|(k, hole)| {
+        let tube = patches(hole).and_then(|p| add_tube(model, p, [&ends[0], &ends[1]]));
+        let CutTube { faces, rings } = tube.map_err(|e| e.blamed_on(&radial_hole_pointer(k)))?;
+        Ok(Passage {
+            name: hole.name.clone(),
+            path: format!("radial_hole/{}", hole.name),
+            faces,
+            rings,
+            outward: true,
+            span: [0.0, 1.0],
+            branches: Vec::new(),
+        })
+    });
+    passages.collect()
+}
+
+fn radial_hole_pointer(k: usize) -> String {
+    format!("/cooling/radial_holes/{k}")
 }
 
 /// The outer surface, a face a region, cut at hub and tip. A region is parted where the surface is only continuous: a
@@ -134,7 +178,15 @@ fn add_solids(
         let mut coolant = Shell {
             faces: passage.faces.iter().map(|&face| FaceUse { face, forward: passage.outward }).collect(),
         };
+        for branch in &passage.branches {
+            let faces = branch.faces.iter();
+            own.faces.extend(faces.clone().map(|&(face, outward)| FaceUse { face, forward: !outward }));
+            coolant.faces.extend(faces.map(|&(face, outward)| FaceUse { face, forward: outward }));
+            coolant.faces.extend(&branch.ends);
+        }
         let open = [passage.span[0] == 0.0, passage.span[1] == 1.0];
+        let count = open.iter().filter(|open| **open).count()
+            + passage.branches.iter().filter(|b| !b.ends.is_empty()).count();
         for side in [0, 1] {
             let up_is_out = side == 1;
             let middle;
@@ -160,12 +212,13 @@ fn add_solids(
                 closed_ends.push((cap, side));
             }
         }
-        if open[0] || open[1] {
+        if count > 0 {
             metal.faces.extend(own.faces);
         } else {
             voids.push(own);
         }
-        through += usize::from(open[0] && open[1]);
+        // The first opening makes a pocket of the passage, every other one a handle.
+        through += count.saturating_sub(1);
         coolants.push(Solid {
             name: format!("coolant/{}", passage.name),
             shells: vec![coolant],

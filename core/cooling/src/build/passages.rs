@@ -8,7 +8,7 @@ use super::stack::Stack;
 use crate::plan::Plan;
 use crate::section::{ClosureKind, Refusal, RingRequest, WallRequest, chamber_ring};
 use coolinggen_blade::{Blade, Fault};
-use coolinggen_brep::{FaceId, Model};
+use coolinggen_brep::{FaceId, FaceUse, Model};
 
 /// One passage: its faces and where it begins and ends.
 #[derive(Clone, Debug)]
@@ -24,6 +24,17 @@ pub(super) struct Passage {
     pub(super) rings: [Ring; 2],
     /// Span fractions of the rings; 0 is open at the hub, 1 at the tip.
     pub(super) span: [f64; 2],
+    /// Bores that leave it.
+    pub(super) branches: Vec<Branch>,
+}
+
+/// A bore that leaves a passage.
+#[derive(Clone, Debug)]
+pub(super) struct Branch {
+    /// Its faces, each with whether its natural normal points out of the coolant.
+    pub(super) faces: Vec<(FaceId, bool)>,
+    /// What closes the coolant at its end.
+    pub(super) ends: Vec<FaceUse>,
 }
 
 /// Builds all chambers and adds their faces to the model; answers with their rings as polygons, too.
@@ -56,6 +67,7 @@ pub(super) fn add_chambers(
             outward: blade.outward,
             rings: tube.rings,
             span: stack.spans[k],
+            branches: Vec::new(),
         });
     }
     if refusals.is_empty() { Ok((passages, polygons)) } else { Err(BuildError::worst(refusals)) }

@@ -26,6 +26,11 @@ pub(super) fn radial_hole() -> Style {
     style("radial_hole", [0.90, 0.62, 0.20])
 }
 
+/// Walls of film holes.
+pub(super) fn film() -> Style {
+    style("film", [0.80, 0.30, 0.30])
+}
+
 /// Where coolant enters.
 pub(super) fn inlet() -> Style {
     style("coolant/inlet", [0.16, 0.45, 0.85])

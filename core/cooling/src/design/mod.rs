@@ -4,12 +4,14 @@
 //! reference page are generated from them. Lengths are millimetres, angles degrees.
 
 mod chambers;
+mod film;
 mod radial_holes;
 mod read;
 mod schema;
 mod spelling;
 
 pub use chambers::{Chamber, Shell, Wall};
+pub use film::{FilmHole, FilmRow, HoleShape, Side};
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, schema_faults};
 
@@ -63,6 +65,10 @@ pub struct Cooling {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
     pub radial_holes: Vec<RadialHole>,
+    /// Rows of film holes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub film_rows: Vec<FilmRow>,
 }
 
 /// Greatest size of a design document, bytes.
