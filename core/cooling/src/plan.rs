@@ -17,6 +17,8 @@ pub struct Plan {
     pub radial_holes: Vec<RadialHolePlan>,
     /// Rows of film holes.
     pub film_rows: Vec<FilmRowPlan>,
+    /// Least metal between neighbouring bores, mm.
+    pub least_ligament: f64,
 }
 
 /// Shell thickness, mm.
@@ -184,7 +186,7 @@ impl Maker {
         let radial_holes = self.radial_holes(cooling, &root.at("radial_holes"));
         self.unique(cooling.film_rows.iter().map(|r| r.name.as_str()), &root.at("film_rows"));
         let film_rows = self.film_rows(cooling, &root.at("film_rows"));
-        Plan { shell, walls, chambers, radial_holes, film_rows }
+        Plan { shell, walls, chambers, radial_holes, film_rows, least_ligament: cooling.least_ligament }
     }
 
     fn film_rows(&mut self, cooling: &Cooling, list: &Pointer) -> Vec<FilmRowPlan> {

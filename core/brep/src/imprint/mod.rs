@@ -57,31 +57,32 @@ impl Model {
         for face in faces {
             let traced = trace::trace(self, face, ring).ok_or_else(|| open.clone())?;
             imprint.inside.extend(traced.inside.into_iter().map(|l| (face, l)));
-            let parts = self.rebuild(face, traced.outside, traced.untouched);
+            let parts = self.rebuild(face, traced.outside);
             imprint.parts.extend(parts.into_iter().map(|part| (part, face)));
         }
         Ok(imprint)
     }
 
-    /// Gives `face` the largest of the `outer` loops and makes faces of the others; inner loops go where they lie.
-    fn rebuild(&mut self, face: FaceId, mut outer: Vec<Loop>, inner: Vec<Loop>) -> Vec<FaceId> {
+    /// Gives `face` the largest of the `outer` loops instead of its own and makes faces of the others; inner loops go
+    /// where they lie.
+    fn rebuild(&mut self, face: FaceId, mut outer: Vec<Loop>) -> Vec<FaceId> {
         outer.sort_by(|a, b| signed_area(b).total_cmp(&signed_area(a)));
-        let old = self.face(face).clone();
-        let mut faces: Vec<Face> =
-            outer.into_iter().map(|l| Face { loops: vec![l], ..old.clone() }).collect();
-        for hole in inner {
-            let at = hole.coedges[0].parameter_at(0.0);
-            let home = faces.iter().position(|f| FaceDomain::new(f).contains(at)).unwrap_or(0);
-            faces[home].loops.push(hole);
-        }
+        let mut outer = outer.into_iter();
+        let Some(largest) = outer.next() else { return Vec::new() };
+        self.faces[face.0].loops[0] = largest;
         let mut added = Vec::new();
-        for (i, part) in faces.into_iter().enumerate() {
-            if i == 0 {
-                self.faces[face.0] = part;
-            } else {
-                let name = self.free_name(&old.name);
-                added.push(self.add_face(Face { name, ..part }));
-            }
+        for border in outer {
+            let old = self.face(face);
+            let (name, surface, style) = (self.free_name(&old.name), old.surface.clone(), old.style.clone());
+            let mut part = Face { name, surface, loops: vec![border], style };
+            let domain = FaceDomain::new(&part);
+            let inside = |hole: &Loop| domain.contains(hole.coedges[0].parameter_at(0.0));
+            let (moved, kept): (Vec<Loop>, Vec<Loop>) =
+                self.faces[face.0].loops.drain(1..).partition(|hole| inside(hole));
+            drop(domain);
+            self.faces[face.0].loops.extend(kept);
+            part.loops.extend(moved);
+            added.push(self.add_face(part));
         }
         added
     }

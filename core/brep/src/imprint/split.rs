@@ -34,6 +34,7 @@ impl Model {
                 let second = Coedge { edge: rest, forward, pcurve: b };
                 let both = if forward { [first, second] } else { [second, first] };
                 lp.coedges.splice(at..=at, both);
+                break;
             }
         }
         Ok(middle)

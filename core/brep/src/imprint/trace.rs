@@ -2,7 +2,7 @@
 
 use super::RingPiece;
 use crate::model::{Coedge, FaceId, Loop, Model, VertexId};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// The loops of a face after a ring was drawn over its borders.
 #[derive(Debug, Default)]
@@ -11,8 +11,6 @@ pub(super) struct Traced {
     pub(super) outside: Vec<Loop>,
     /// Outer loops of what the ring encloses.
     pub(super) inside: Vec<Loop>,
-    /// Loops that the ring does not touch.
-    pub(super) untouched: Vec<Loop>,
 }
 
 /// A run of the ring's pieces through one face, from border to border.
@@ -25,14 +23,10 @@ struct Chain {
 /// Traces `face` anew; none where the ring's crossings are not vertices of the face's borders.
 pub(super) fn trace(model: &Model, face: FaceId, ring: &[RingPiece]) -> Option<Traced> {
     let chains = chains(model, face, ring);
-    let loops = &model.face(face).loops;
-    let mut leaving: HashMap<VertexId, (usize, usize)> = HashMap::new();
-    for (l, lp) in loops.iter().enumerate() {
-        for (c, coedge) in lp.coedges.iter().enumerate() {
-            leaving.insert(model.start_of(coedge), (l, c));
-        }
-    }
-    let mut border = Border { model, loops, leaving, touched: HashSet::new() };
+    // Inner loops are bores of their own: a ring that meets one finds no vertex there and is refused.
+    let border = &model.face(face).loops.first()?.coedges;
+    let leaving = border.iter().enumerate().map(|(i, coedge)| (model.start_of(coedge), i)).collect();
+    let border = Border { model, coedges: border, leaving };
     let forward: HashMap<VertexId, usize> = chains.iter().enumerate().map(|(i, c)| (c.start, i)).collect();
     let backward: HashMap<VertexId, usize> = chains.iter().enumerate().map(|(i, c)| (c.end, i)).collect();
     let outside = border.follow(&chains, &forward, |c| (c.coedges.clone(), c.end))?;
@@ -40,26 +34,22 @@ pub(super) fn trace(model: &Model, face: FaceId, ring: &[RingPiece]) -> Option<T
         let reversed = Loop { coedges: c.coedges.clone() }.reversed();
         (reversed.coedges, c.start)
     })?;
-    let untouched = (loops.iter().enumerate()).filter(|(l, _)| !border.touched.contains(l));
-    let untouched = untouched.map(|(_, lp)| lp.clone()).collect();
-    Some(Traced { outside, inside, untouched })
+    Some(Traced { outside, inside })
 }
 
-/// The borders of a face, to be followed from vertex to vertex.
+/// The outer border of a face, to be followed from vertex to vertex.
 struct Border<'m> {
     model: &'m Model,
-    loops: &'m [Loop],
-    /// Loop and index of the coedge that leaves a vertex.
-    leaving: HashMap<VertexId, (usize, usize)>,
-    /// Loops followed so far.
-    touched: HashSet<usize>,
+    coedges: &'m [Coedge],
+    /// Index of the coedge that leaves a vertex.
+    leaving: HashMap<VertexId, usize>,
 }
 
 impl Border<'_> {
     /// Closed loops made of chains and of the borders between them: a chain is entered at the vertex that `entry` has it
     /// at, and `run` gives its coedges in the order they are run through and the vertex where they end.
     fn follow(
-        &mut self,
+        &self,
         chains: &[Chain],
         entry: &HashMap<VertexId, usize>,
         run: impl Fn(&Chain) -> (Vec<Coedge>, VertexId),
@@ -77,9 +67,7 @@ impl Border<'_> {
                     if let Some(&next) = entry.get(&vertex) {
                         break next;
                     }
-                    let &(l, c) = self.leaving.get(&vertex)?;
-                    let coedge = &self.loops[l].coedges[c];
-                    self.touched.insert(l);
+                    let coedge = &self.coedges[*self.leaving.get(&vertex)?];
                     coedges.push(coedge.clone());
                     vertex = self.model.end_of(coedge);
                     if coedges.len() > self.leaving.len() + 1000 {

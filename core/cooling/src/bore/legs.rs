@@ -11,8 +11,7 @@ pub(super) struct Leg {
     pub(super) face: FaceId,
     /// Where on the face, and on its ray, the leg starts.
     pub(super) start: (DVec2, f64),
-    /// Parameters of the path at its ends.
-    pub(super) from: f64,
+    /// Parameter of the path at its end.
     pub(super) to: f64,
     /// How it crosses to the next leg; none at the end of the path.
     pub(super) crossing: Option<Crossing>,
@@ -32,7 +31,7 @@ pub(super) fn legs(
 ) -> Result<(Vec<Leg>, (FaceId, Hit)), BoreError> {
     let (mut face, near, along) = start;
     let first = target.meet(face, &rays(0.0), near, along).ok_or(BoreError::Misses)?;
-    let mut leg = Leg { face, start: (first.at, first.along), from: 0.0, to: 1.0, crossing: None };
+    let mut leg = Leg { face, start: (first.at, first.along), to: 1.0, crossing: None };
     let mut out = Vec::new();
     let mut last = first;
     let mut before = 0.0;
@@ -48,13 +47,7 @@ pub(super) fn legs(
             leg.crossing = Some(crossing);
             out.push(leg);
             face = crossing.to;
-            leg = Leg {
-                face,
-                start: (crossing.to_at, crossing.along),
-                from: crossing.t,
-                to: 1.0,
-                crossing: None,
-            };
+            leg = Leg { face, start: (crossing.to_at, crossing.along), to: 1.0, crossing: None };
             before = crossing.t;
             hit = target.meet(face, &rays(t), crossing.to_at, crossing.along).ok_or(BoreError::Misses)?;
         }

@@ -7,19 +7,21 @@
 
 mod build;
 mod legs;
+mod ligament;
 mod ring;
 mod shape;
 mod target;
 
 pub(crate) use build::{BoreNames, Drill};
-pub(crate) use shape::{BoreSection, BoreShape, Frame, circle, rounded_rectangle, stretched_circle};
+pub(crate) use ligament::{Hull, Neighbour, neighbours};
+pub(crate) use shape::{BoreShape, Frame, circle, rounded_rectangle, stretched_circle};
 pub(crate) use target::Mouth;
 
 use std::fmt;
 
 /// Why a bore cannot be made.
 #[derive(Clone, Debug, PartialEq)]
-pub enum BoreError {
+pub(crate) enum BoreError {
     /// A line of the bore does not meet the surface it should end on.
     Misses,
     /// The border of the bore runs over the end of a passage, or over hub or tip; the name of the face it leaves.

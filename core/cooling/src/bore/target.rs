@@ -148,7 +148,8 @@ impl Target<'_> {
             Side::U(u) => DVec2::new(u, free),
             Side::V(v) => DVec2::new(free, v),
         };
-        for coedge in self.model.face(face).loops.iter().flat_map(|l| &l.coedges) {
+        let border = |face: FaceId| self.model.face(face).loops.iter().take(1).flat_map(|l| &l.coedges);
+        for coedge in border(face) {
             let (start, end) = coedge.pcurve.domain();
             let (from, to) = (coedge.pcurve.point(start), coedge.pcurve.point(end));
             let (fixed, low, high) = match side {
@@ -165,9 +166,7 @@ impl Target<'_> {
                 continue;
             }
             for &to in self.faces.iter().filter(|f| **f != face) {
-                let twin =
-                    self.model.face(to).loops.iter().flat_map(|l| &l.coedges).find(|c| c.edge == coedge.edge);
-                if let Some(twin) = twin {
+                if let Some(twin) = border(to).find(|c| c.edge == coedge.edge) {
                     return Ok((coedge.edge, t, to, twin.pcurve.point(t)));
                 }
             }

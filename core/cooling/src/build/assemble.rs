@@ -69,8 +69,8 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
             }
             let sides = Sides::new(blade, &grid, &sections);
             let (outer, outward) = (&mut outer.faces, blade.outward);
-            let mut blank = Blank { model: &mut model, outer, passages: &mut passages, outward };
-            film_holes = add_film_rows(&mut blank, &sides, &plan.film_rows)?;
+            let mut blank = Blank { model: &mut model, outer, passages: &mut passages, outward, ends: &ends };
+            film_holes = add_film_rows(&mut blank, &sides, &plan.film_rows, plan.least_ligament)?;
         }
     }
     let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();

@@ -69,6 +69,10 @@ pub struct Cooling {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
     pub film_rows: Vec<FilmRow>,
+    /// Least metal between neighbouring film holes, mm; less is refused.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "mm"))]
+    pub least_ligament: f64,
 }
 
 /// Greatest size of a design document, bytes.

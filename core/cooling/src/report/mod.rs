@@ -3,7 +3,7 @@
 mod text;
 mod thickness;
 
-use crate::build::{BuildError, CooledBlade, RadialHoleGeometry};
+use crate::build::{BuildError, CooledBlade, FilmHoleGeometry, RadialHoleGeometry};
 use coolinggen_blade::{Blade, FitReport};
 use coolinggen_brep::{Face, FaceIntegrals, Model, SolidCheck, face_integrals};
 use serde::Serialize;
@@ -38,6 +38,9 @@ pub struct Report {
     /// The radial holes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub radial_holes: Vec<RadialHoleReport>,
+    /// The film holes, row by row from hub to tip.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub holes: Vec<HoleReport>,
     /// How the outer surface compares with the data it was made from.
     pub blade_fit: FitReport,
     /// Time spent, milliseconds.
@@ -114,6 +117,39 @@ pub struct RadialHoleReport {
     pub wall_mm: f64,
 }
 
+/// A film hole.
+#[derive(Clone, Debug, Serialize)]
+pub struct HoleReport {
+    /// Path of its faces: `film/<row>/<number>`.
+    pub name: String,
+    /// Passage that feeds it.
+    pub passage: String,
+    /// Where its axis breaks out.
+    pub position_mm: [f64; 3],
+    /// Unit direction of its axis, out of the blade.
+    pub direction: [f64; 3],
+    /// Diameter of the metering part.
+    pub diameter_mm: f64,
+    /// Length of the axis in the metal.
+    pub length_mm: f64,
+    /// Length over diameter.
+    pub length_d: f64,
+    /// Angle between the axis and the surface.
+    pub inclination_deg: f64,
+    /// Angle of the axis about the surface's normal, from downstream towards the tip.
+    pub compound_deg: f64,
+    /// Area of the exit, normal to the axis where its upstream edge breaks out, over that of the metering part.
+    pub area_ratio: f64,
+    /// Area of the breakout in the outer surface.
+    pub breakout_mm2: f64,
+    /// Width of the breakout between its side walls over the distance between holes of the row.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<f64>,
+    /// Metal to the nearest other film hole, if it is near.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ligament_mm: Option<f64>,
+}
+
 /// Time spent, milliseconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Timings {
@@ -147,6 +183,7 @@ impl Report {
             faces: faces(model, &integrals),
             wall_thickness_mm: None,
             radial_holes: Vec::new(),
+            holes: cooled.film_holes.iter().map(|hole| hole_report(hole, &integrals)).collect(),
             blade_fit: blade.fit.clone(),
             timings_ms: Timings::default(),
         };
@@ -242,6 +279,24 @@ fn faces(model: &Model, integrals: &[FaceIntegrals]) -> Vec<FaceReport> {
         }
     }
     faces
+}
+
+fn hole_report(hole: &FilmHoleGeometry, integrals: &[FaceIntegrals]) -> HoleReport {
+    HoleReport {
+        name: format!("film/{}/{:03}", hole.row, hole.number),
+        passage: hole.passage.clone(),
+        position_mm: hole.exit.to_array(),
+        direction: hole.axis.to_array(),
+        diameter_mm: hole.diameter,
+        length_mm: hole.length,
+        length_d: hole.length / hole.diameter,
+        inclination_deg: hole.angles_deg[0],
+        compound_deg: hole.angles_deg[1],
+        area_ratio: hole.area_ratio,
+        breakout_mm2: hole.exits.iter().map(|f| integrals[f.0].area_mm2).sum(),
+        coverage: hole.coverage,
+        ligament_mm: hole.ligament,
+    }
 }
 
 fn radial_hole(hole: &RadialHoleGeometry, walls: &[ThinnestWall]) -> RadialHoleReport {

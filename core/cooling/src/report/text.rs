@@ -1,6 +1,6 @@
 //! The report as a page of text.
 
-use super::Report;
+use super::{HoleReport, Report};
 use std::fmt::Write;
 
 /// A table of what matters first.
@@ -46,6 +46,7 @@ fn write(report: &Report, out: &mut String) -> std::fmt::Result {
             writeln!(out, "  {:<12} {hub:>10.4} {tip:>10.4} {at:>28} {:>9.4}", hole.name, hole.wall_mm)?;
         }
     }
+    film_rows(report, out)?;
     let fit = &report.blade_fit;
     if fit.points > 0 {
         writeln!(
@@ -55,4 +56,37 @@ fn write(report: &Report, out: &mut String) -> std::fmt::Result {
         )?;
     }
     writeln!(out, "\n  {:.1} ms", report.timings_ms.total)
+}
+
+/// A line a row: the holes themselves are in the JSON report.
+fn film_rows(report: &Report, out: &mut String) -> std::fmt::Result {
+    if report.holes.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "\n  {:<16} {:>6} {:>9} {:>7} {:>11} {:>9} {:>12}  fed by",
+        "film row", "holes", "d mm", "L/D", "area ratio", "t/P", "ligament mm"
+    )?;
+    let row = |hole: &HoleReport| hole.name.rsplit_once('/').map_or(String::new(), |(row, _)| row.to_owned());
+    for holes in report.holes.chunk_by(|a, b| row(a) == row(b)) {
+        let mean = |of: fn(&HoleReport) -> f64| holes.iter().map(of).sum::<f64>() / holes.len() as f64;
+        let optional = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.3}"));
+        let ligament = holes.iter().filter_map(|h| h.ligament_mm).min_by(f64::total_cmp);
+        let mut fed: Vec<&str> = holes.iter().map(|h| h.passage.as_str()).collect();
+        fed.dedup();
+        writeln!(
+            out,
+            "  {:<16} {:>6} {:>9.4} {:>7.2} {:>11.3} {:>9} {:>12}  {}",
+            row(&holes[0]).trim_start_matches("film/"),
+            holes.len(),
+            mean(|h| h.diameter_mm),
+            mean(|h| h.length_d),
+            mean(|h| h.area_ratio),
+            optional(holes[0].coverage),
+            optional(ligament),
+            fed.join(", ")
+        )?;
+    }
+    Ok(())
 }

@@ -1,0 +1,190 @@
+//! Film holes: from rows to bores between the outer surface and the passages.
+
+mod exit;
+mod feed;
+mod hole;
+#[cfg(test)]
+mod tests;
+
+use super::error::BuildError;
+use super::passages::{Branch, Passage};
+use super::sides::Sides;
+use super::style;
+use crate::bore::{BoreError, BoreNames, Drill, Hull, Mouth, Neighbour, neighbours};
+use crate::plan::FilmRowPlan;
+use coolinggen_blade::{Fault, StreamSurface};
+use coolinggen_brep::{Caster, FaceId, FaceUse, Model};
+use coolinggen_nurbs::ParametricSurface;
+use exit::{add_exit, inside_blade};
+use feed::{Feed, feed};
+use glam::DVec3;
+use hole::{Hole, holes};
+
+/// A film hole as built.
+#[derive(Clone, Debug)]
+pub struct FilmHoleGeometry {
+    /// Name of its row.
+    pub row: String,
+    /// Number in the row, from 1 at the hub.
+    pub number: usize,
+    /// The passage that feeds it.
+    pub passage: String,
+    /// Where the axis breaks out, mm.
+    pub exit: DVec3,
+    /// Unit direction of the axis, out of the blade.
+    pub axis: DVec3,
+    /// Diameter of the metering part, mm.
+    pub diameter: f64,
+    /// Length of the axis in the metal, mm.
+    pub length: f64,
+    /// Angles to the surface and about its normal, degrees.
+    pub angles_deg: [f64; 2],
+    /// Area of the exit's section normal to the axis over that of the metering part.
+    pub area_ratio: f64,
+    /// Width of the exit across the axis over the distance between holes; none for a lone hole.
+    pub coverage: Option<f64>,
+    /// Metal to the nearest other film hole, mm; none if that is far.
+    pub ligament: Option<f64>,
+    /// Faces of the breakout in the outer surface.
+    pub exits: Vec<FaceId>,
+}
+
+/// What film holes are drilled into.
+pub(super) struct Blank<'a> {
+    pub(super) model: &'a mut Model,
+    /// Faces of the outer surface; grows where holes part them.
+    pub(super) outer: &'a mut Vec<FaceId>,
+    pub(super) passages: &'a mut [Passage],
+    /// Whether the outer faces' natural normals point out of the blade.
+    pub(super) outward: bool,
+    /// Hub and tip.
+    pub(super) ends: &'a [StreamSurface; 2],
+}
+
+/// Drills all rows; metal between neighbouring holes must be `least` mm.
+pub(super) fn add_film_rows(
+    blank: &mut Blank<'_>,
+    sides: &Sides<'_>,
+    rows: &[FilmRowPlan],
+    least: f64,
+) -> Result<Vec<FilmHoleGeometry>, BuildError> {
+    let passage_faces = blank.passages.iter().flat_map(|p| p.faces.iter().copied());
+    let caster = Caster::new(blank.model, passage_faces);
+    let mut faults = Vec::new();
+    let mut planned = Vec::new();
+    for (k, row) in rows.iter().enumerate() {
+        let pointer = format!("/cooling/film_rows/{k}");
+        for hole in holes(sides, row, &pointer) {
+            match feed(blank, &caster, &hole) {
+                Ok(feed) => planned.push((hole, feed)),
+                Err(fault) => faults.push(fault),
+            }
+        }
+    }
+    let ligaments = ligaments(&planned, least, &mut faults);
+    // Holes that meet cannot be drilled, and say all there is to say.
+    if !faults.is_empty() {
+        return Err(BuildError::Refused(faults));
+    }
+    let mut drill = Drill::default();
+    let mut drilled = Vec::with_capacity(planned.len());
+    for ((hole, feed), ligament) in planned.iter().zip(ligaments) {
+        match drill_hole(blank, &mut drill, hole, feed, ligament) {
+            Ok(made) => drilled.push(made),
+            Err(fault) => faults.push(fault),
+        }
+    }
+    if faults.is_empty() { Ok(drilled) } else { Err(BuildError::Refused(faults)) }
+}
+
+/// Metal from each hole to its nearest neighbour; a fault for every pair with too little of it.
+fn ligaments(planned: &[(Hole<'_>, Feed)], least: f64, faults: &mut Vec<Fault>) -> Vec<Option<f64>> {
+    let hulls: Vec<Hull> = planned.iter().map(|(_, feed)| feed.hull).collect();
+    let greatest = hulls.iter().map(|h| h.radii[1]).fold(0.0, f64::max);
+    let found = neighbours(&hulls, least.max(10.0 * greatest));
+    for (i, neighbour) in found.iter().enumerate() {
+        // Once a pair: where each is the other's nearest, by the later one.
+        let told = |n: &Neighbour| n.index > i && found[n.index].is_some_and(|back| back.index == i);
+        let Some(neighbour) = neighbour.filter(|n| n.gap < least && !told(n)) else { continue };
+        let (hole, other) = (&planned[i].0, &planned[neighbour.index].0);
+        let what = if neighbour.gap < 0.0 {
+            format!("meets hole {} of row \"{}\" by {:.3} mm", other.number, other.row.name, -neighbour.gap)
+        } else {
+            format!("leaves {:.3} mm to hole {} of row \"{}\"", neighbour.gap, other.number, other.row.name)
+        };
+        faults.push(hole.fault("ligament", what).value(neighbour.gap).min(least).unit("mm"));
+    }
+    found.into_iter().map(|n| n.map(|n| n.gap)).collect()
+}
+
+fn drill_hole(
+    blank: &mut Blank<'_>,
+    drill: &mut Drill,
+    hole: &Hole<'_>,
+    feed: &Feed,
+    ligament: Option<f64>,
+) -> Result<FilmHoleGeometry, Fault> {
+    let outer = outer_mouth(blank.model, blank.outer, hole);
+    let Some(outer) = outer else {
+        return Err(hole.fault("leaves_blade", "breaks out beyond hub or tip"));
+    };
+    let path = format!("film/{}/{:03}", hole.row.name, hole.number);
+    let stages: &[&str] = if feed.shape.sections.len() > 2 { &["metering", "diffuser"] } else { &["bore"] };
+    let style = style::film();
+    let names = BoreNames { path: &path, stages, style: &style };
+    let passage = &mut blank.passages[feed.passage];
+    let bored = drill
+        .bore(blank.model, &feed.shape, [(&passage.faces, feed.mouth), (blank.outer, outer)], &names)
+        .map_err(|error| bore_fault(hole, &error))?;
+    let [lower, upper] = bored.imprints;
+    passage.faces.extend(lower.parts.iter().map(|(part, _)| *part));
+    blank.outer.extend(upper.parts.iter().map(|(part, _)| *part));
+    for (_, border) in &upper.inside {
+        inside_blade(blank, border, hole)?;
+    }
+    let exits: Vec<FaceId> = (upper.inside.into_iter().enumerate())
+        .map(|(i, (parent, border))| {
+            let name = if i == 0 { format!("{path}/exit") } else { format!("{path}/exit/{}", i + 1) };
+            add_exit(blank.model, name, parent, border)
+        })
+        .collect();
+    let passage = &mut blank.passages[feed.passage];
+    passage.branches.push(Branch {
+        faces: bored.faces,
+        ends: exits.iter().map(|&face| FaceUse { face, forward: blank.outward }).collect(),
+    });
+    Ok(FilmHoleGeometry {
+        row: hole.row.name.clone(),
+        number: hole.number,
+        passage: passage.name.clone(),
+        exit: hole.at.point,
+        axis: hole.axis,
+        diameter: 2.0 * hole.radius,
+        length: feed.length,
+        angles_deg: hole.angles_deg,
+        area_ratio: feed.area_ratio,
+        coverage: hole.pitch.map(|pitch| feed.width / pitch),
+        ligament,
+        exits,
+    })
+}
+
+fn bore_fault(hole: &Hole<'_>, error: &BoreError) -> Fault {
+    let code = match error {
+        BoreError::Leaves(_) => "leaves_face",
+        BoreError::TooShort(_) => "wall_too_thin",
+        BoreError::Misses | BoreError::Inaccurate | BoreError::Geometry(_) => "geometry",
+    };
+    hole.fault(code, error)
+}
+
+/// The outer face on which the hole breaks out.
+fn outer_mouth(model: &Model, outer: &[FaceId], hole: &Hole<'_>) -> Option<Mouth> {
+    let at = hole.at.at;
+    let face = outer.iter().copied().find(|&face| {
+        let face = model.face(face);
+        let ((u0, u1), _) = face.surface.domain();
+        (u0..=u1).contains(&at.x)
+    })?;
+    Some(Mouth { face, at, z: 0.0 })
+}

@@ -1,0 +1,131 @@
+//! Film holes on the rotor with three chambers: solids, genus, names, and what is refused.
+
+use coolinggen_blade::Fault;
+use coolinggen_cooling::design::Design;
+use coolinggen_cooling::{Generated, generate};
+use serde_json::{Value, json};
+use std::collections::HashSet;
+use std::path::Path;
+
+fn rotor(rows: Value) -> Result<Generated, Vec<Fault>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples/rotor.json");
+    let mut design: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    design["cooling"]["film_rows"] = rows;
+    generate(&Design::from_json(&design.to_string())?, Path::new("."))
+}
+
+fn row(name: &str, side: &str, position: f64, count: u32, hole: Value) -> Value {
+    json!({
+        "name": name, "side": side, "surface_position": position, "span": [0.15, 0.88], "count": count, "hole": hole
+    })
+}
+
+fn round(diameter: f64, inclination: f64, compound: f64) -> Value {
+    json!({ "diameter": diameter, "inclination_deg": inclination, "compound_deg": compound })
+}
+
+fn shaped(diameter: f64, metering_length: f64) -> Value {
+    let mut hole = round(diameter, 30.0, 0.0);
+    hole["shape"] = json!({
+        "kind": "shaped", "metering_length_d": metering_length, "lateral_expansion_deg": 7, "forward_expansion_deg": 7
+    });
+    hole
+}
+
+/// Watertight, of the genus implied, with nothing lost between metal and coolant, names used once.
+fn check(generated: &Generated, holes: usize) {
+    let report = &generated.report;
+    assert!(report.watertight);
+    assert!(report.max_edge_deviation_mm < 3e-8, "{}", report.max_edge_deviation_mm);
+    for (solid, genus) in &report.genus {
+        assert_eq!(genus.found, Some(genus.expected), "{solid}");
+    }
+    let sum: f64 = report.solids.values().map(|s| s.volume_mm3).sum();
+    assert!((sum / report.blank.volume_mm3 - 1.0).abs() < 1e-9, "{sum}");
+    assert_eq!(report.holes.len(), holes);
+    let names: HashSet<&str> = generated.blade.model.faces.iter().map(|f| f.name.as_str()).collect();
+    assert_eq!(names.len(), generated.blade.model.faces.len());
+}
+
+#[test]
+fn rows_on_both_sides_and_over_the_leading_edge() {
+    let mut conical = round(0.4, 35.0, 30.0);
+    conical["shape"] = json!({ "kind": "conical", "expansion_deg": 5 });
+    let mut console = round(0.4, 40.0, 0.0);
+    console["shape"] = json!({ "kind": "racetrack", "width_d": 2.5 });
+    let rows = json!([
+        row("ps1", "pressure_side", 0.3, 7, round(0.5, 35.0, 0.0)),
+        row("ps2", "pressure_side", 0.6, 7, conical),
+        row("ss1", "suction_side", 0.2, 7, console),
+        row("ss2", "suction_side", 0.4, 7, shaped(0.4, 2.5)),
+        row("sh1", "suction_side", 0.0, 7, round(0.5, 30.0, 90.0)),
+        row("sh2", "suction_side", 0.05, 7, round(0.5, 30.0, 90.0)),
+        row("sh3", "pressure_side", 0.09, 7, round(0.5, 40.0, 90.0)),
+    ]);
+    let generated = rotor(rows).unwrap_or_else(|f| panic!("{f:?}"));
+    check(&generated, 49);
+    // The leading chamber is open at the hub: each of its 35 holes makes a handle. The middle one is a void: the first
+    // of its 14 holes opens it, the others make handles.
+    assert_eq!(generated.report.genus["metal"].found, Some(35 + 13));
+    let crossing = generated.blade.model.faces.iter().filter(|f| f.name.ends_with("/exit/2")).count();
+    assert!(crossing > 0, "no hole crosses the border of the leading edge");
+}
+
+#[test]
+fn a_pitch_makes_as_few_holes_as_keep_it() {
+    let mut at_pitch = row("ps1", "pressure_side", 0.3, 1, round(0.5, 35.0, 0.0));
+    at_pitch.as_object_mut().unwrap().remove("count");
+    at_pitch["pitch"] = json!(3.0);
+    let generated = rotor(json!([at_pitch])).unwrap_or_else(|f| panic!("{f:?}"));
+    let holes = &generated.report.holes;
+    check(&generated, holes.len());
+    let at = |i: usize| glam::DVec3::from_array(holes[i].position_mm);
+    for i in 1..holes.len() {
+        let pitch = at(i).distance(at(i - 1));
+        assert!(pitch < 3.05 && pitch > 2.5, "{pitch}");
+    }
+}
+
+/// The only fault's code and message.
+fn refusal(rows: Value) -> (&'static str, String) {
+    let faults = rotor(rows).expect_err("refused");
+    assert!(faults.iter().all(|f| f.pointer.starts_with("/cooling/film_rows/")), "{faults:?}");
+    (faults[0].code, faults[0].message.clone())
+}
+
+#[test]
+fn refusals_name_row_and_hole() {
+    let lone = |position: f64, hole: Value| json!([row("r", "suction_side", position, 1, hole)]);
+    let (code, message) = refusal(lone(0.97, round(0.5, 90.0, 0.0)));
+    assert_eq!(code, "reaches_no_chamber", "{message}");
+    let (code, message) = refusal(lone(0.4, shaped(0.5, 20.0)));
+    assert_eq!(code, "wall_too_thin", "{message}");
+    let (code, message) = refusal(json!([row("r", "pressure_side", 0.3, 300, round(0.5, 35.0, 0.0))]));
+    assert_eq!(code, "ligament", "{message}");
+    assert!(message.contains("of film row \"r\" meets hole "), "{message}");
+    let mut named = row("r", "suction_side", 0.4, 1, round(0.5, 90.0, 0.0));
+    named["chamber"] = json!("trailing");
+    let (code, message) = refusal(json!([named]));
+    assert_eq!(code, "other_chamber", "{message}");
+    let mut high = row("r", "pressure_side", 0.3, 1, round(0.5, 90.0, 0.0));
+    high["span"] = json!([0.999, 1.0]);
+    let (code, message) = refusal(json!([high]));
+    assert!(["leaves_blade", "meets_wall", "reaches_no_chamber"].contains(&code), "{code} {message}");
+    // Across the wall between the chambers: some of the rim meets one, some the other or the wall.
+    let swept: Vec<Value> = (0..60)
+        .map(|i| row(&format!("r{i}"), "suction_side", 0.25 + 0.005 * f64::from(i), 1, round(1.2, 90.0, 0.0)))
+        .collect();
+    let codes: Vec<&str> =
+        swept.into_iter().filter_map(|row| rotor(json!([row])).err().map(|faults| faults[0].code)).collect();
+    assert!(codes.contains(&"meets_wall"), "{codes:?}");
+    assert!(!codes.contains(&"geometry"), "{codes:?}");
+}
+
+#[test]
+fn place_and_number_must_be_said_once() {
+    let mut twice = row("r", "suction_side", 0.4, 3, round(0.5, 90.0, 0.0));
+    twice["surface_distance"] = json!(3.0);
+    twice["pitch"] = json!(3.0);
+    let faults = rotor(json!([twice])).expect_err("refused");
+    assert_eq!(faults.iter().filter(|f| f.code == "one_of").count(), 2, "{faults:?}");
+}
