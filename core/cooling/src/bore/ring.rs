@@ -6,6 +6,7 @@ use coolinggen_brep::FaceId;
 use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve, ParametricSurface};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// How far a delimiting curve may lie from its surface and from the image of its parameter curve, mm: FreeCAD's check
 /// allows 7e-8 including the reader's own interpolation (DESIGN 6).
@@ -26,11 +27,13 @@ pub(super) struct Interpolators(HashMap<usize, Interpolator>);
 
 impl Interpolators {
     pub(super) fn of(&mut self, spans: usize) -> Result<&Interpolator, BoreError> {
-        if !self.0.contains_key(&spans) {
-            let nodes: Vec<f64> = (0..=spans).map(|i| i as f64 / spans as f64).collect();
-            self.0.insert(spans, Interpolator::with_slopes(&nodes)?);
-        }
-        Ok(&self.0[&spans])
+        Ok(match self.0.entry(spans) {
+            Entry::Occupied(found) => found.into_mut(),
+            Entry::Vacant(place) => {
+                let nodes: Vec<f64> = (0..=spans).map(|i| i as f64 / spans as f64).collect();
+                place.insert(Interpolator::with_slopes(&nodes)?)
+            }
+        })
     }
 }
 

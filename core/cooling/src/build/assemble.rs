@@ -74,15 +74,15 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         }
     }
     let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
-    let (end_faces, closed_ends) = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
+    let caps = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
     let mut outer_faces = outer.faces;
     outer_faces.extend(film_holes.iter().flat_map(|hole| &hole.exits));
     Ok(CooledBlade {
         model,
         outer_faces,
         passage_faces,
-        end_faces,
-        closed_ends,
+        end_faces: caps.open,
+        closed_ends: caps.closed,
         end_surfaces: ends,
         radial_holes,
         film_holes,
@@ -155,7 +155,13 @@ fn add_blade(model: &mut Model, blade: &Blade, ends: [&StreamSurface; 2]) -> Res
     add_tube(model, patches, ends)
 }
 
-/// Caps and solids; answers with hub and tip face and the faces of closed ends.
+/// Hub and tip face, and the faces that end passages inside.
+struct Ends {
+    open: [FaceId; 2],
+    closed: Vec<(FaceId, usize)>,
+}
+
+/// Caps and solids.
 fn add_solids(
     model: &mut Model,
     blade: &Blade,
@@ -163,7 +169,7 @@ fn add_solids(
     ends: &[StreamSurface; 2],
     outer: &CutTube,
     passages: &[Passage],
-) -> Result<([FaceId; 2], Vec<(FaceId, usize)>), BuildError> {
+) -> Result<Ends, BuildError> {
     let mut closed_ends = Vec::new();
     let mut metal = Shell::default();
     let mut voids = Vec::new();
@@ -237,5 +243,5 @@ fn add_solids(
     shells.extend(voids);
     model.solids.push(Solid { name: "metal".into(), shells, expected_genus: through });
     model.solids.extend(coolants);
-    Ok((end_faces, closed_ends))
+    Ok(Ends { open: end_faces, closed: closed_ends })
 }

@@ -82,8 +82,7 @@ impl Hole<'_> {
                 if !(end - start > 0.05 * r) {
                     let greatest = (end + length) / (2.0 * r);
                     let what = format!(
-                        "has {:.3} mm of wall along its axis, too little for its metering length",
-                        length
+                        "has {length:.3} mm of wall along its axis, too little for its metering length"
                     );
                     let fault = self.fault("wall_too_thin", what).value(metering_length_d).max(greatest);
                     return Err(fault.unit("diameters"));
