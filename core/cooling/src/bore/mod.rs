@@ -29,10 +29,24 @@ pub(crate) enum BoreError {
     /// The bore's end lies beyond its neighbouring section: the wall is too thin for the shape, or the hole too
     /// oblique. By how much, mm.
     TooShort(f64),
+    /// The bore breaks out beyond hub or tip, by how much, mm.
+    BeyondEnds(f64),
     /// A delimiting curve could not be brought within the tolerance of its surface.
     Inaccurate,
     /// A kernel or topology method failed.
     Geometry(String),
+}
+
+impl BoreError {
+    /// The fault's code.
+    pub(crate) fn code(&self) -> &'static str {
+        match self {
+            Self::Leaves(_) => "leaves_face",
+            Self::TooShort(_) => "wall_too_thin",
+            Self::BeyondEnds(_) => "leaves_blade",
+            Self::Misses | Self::Inaccurate | Self::Geometry(_) => "geometry",
+        }
+    }
 }
 
 impl fmt::Display for BoreError {
@@ -41,6 +55,7 @@ impl fmt::Display for BoreError {
             Self::Misses => write!(f, "does not meet the surface it should end on"),
             Self::Leaves(face) => write!(f, "runs over the end of {face}"),
             Self::TooShort(by) => write!(f, "is {by:.3} mm too short for its shape"),
+            Self::BeyondEnds(by) => write!(f, "breaks out {by:.3} mm beyond hub or tip"),
             Self::Inaccurate => write!(f, "meets its surface at too flat an angle"),
             Self::Geometry(message) => write!(f, "{message}"),
         }

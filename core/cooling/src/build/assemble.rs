@@ -1,9 +1,10 @@
 //! Solids from faces: the metal, and a coolant solid for every passage.
 
+use super::blank::Blank;
 use super::cap::{Ring, add_cap, points_up};
 use super::clearance::{self, ChamberPolygon};
 use super::error::BuildError;
-use super::film::{Blank, FilmHoleGeometry, add_film_rows};
+use super::film::{FilmHoleGeometry, add_film_rows};
 use super::passages::{Passage, add_chambers};
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section, span_fractions};

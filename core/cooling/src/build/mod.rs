@@ -2,6 +2,7 @@
 
 mod assemble;
 mod bitangent;
+mod blank;
 mod bridge;
 mod cap;
 mod chambers;

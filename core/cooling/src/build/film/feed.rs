@@ -1,6 +1,6 @@
 //! What feeds a film hole.
 
-use super::Blank;
+use super::super::blank::Blank;
 use super::hole::Hole;
 use crate::bore::{BoreShape, Hull, Mouth};
 use coolinggen_blade::Fault;

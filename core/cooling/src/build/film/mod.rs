@@ -1,21 +1,18 @@
 //! Film holes: from rows to bores between the outer surface and the passages.
 
-mod exit;
 mod feed;
 mod hole;
 #[cfg(test)]
 mod tests;
 
+use super::blank::Blank;
 use super::error::BuildError;
-use super::passages::{Branch, Passage};
 use super::sides::Sides;
 use super::style;
-use crate::bore::{BoreError, BoreNames, Drill, Hull, Mouth, Neighbour, neighbours};
+use crate::bore::{BoreNames, Drill, Hull, Mouth, Neighbour, neighbours};
 use crate::plan::FilmRowPlan;
-use coolinggen_blade::{Fault, StreamSurface};
-use coolinggen_brep::{Caster, FaceId, FaceUse, Model};
-use coolinggen_nurbs::ParametricSurface;
-use exit::{add_exit, inside_blade};
+use coolinggen_blade::Fault;
+use coolinggen_brep::{Caster, FaceId};
 use feed::{Feed, feed};
 use glam::DVec3;
 use hole::{Hole, holes};
@@ -47,18 +44,6 @@ pub struct FilmHoleGeometry {
     pub ligament: Option<f64>,
     /// Faces of the breakout in the outer surface.
     pub exits: Vec<FaceId>,
-}
-
-/// What film holes are drilled into.
-pub(super) struct Blank<'a> {
-    pub(super) model: &'a mut Model,
-    /// Faces of the outer surface; grows where holes part them.
-    pub(super) outer: &'a mut Vec<FaceId>,
-    pub(super) passages: &'a mut [Passage],
-    /// Whether the outer faces' natural normals point out of the blade.
-    pub(super) outward: bool,
-    /// Hub and tip.
-    pub(super) ends: &'a [StreamSurface; 2],
 }
 
 /// Drills all rows; metal between neighbouring holes must be `least` mm.
@@ -124,39 +109,20 @@ fn drill_hole(
     feed: &Feed,
     ligament: Option<f64>,
 ) -> Result<FilmHoleGeometry, Fault> {
-    let outer = outer_mouth(blank.model, blank.outer, hole);
-    let Some(outer) = outer else {
-        return Err(hole.fault("leaves_blade", "breaks out beyond hub or tip"));
-    };
+    let leaves = || hole.fault("leaves_blade", "breaks out beyond the sides");
+    let face = blank.outer_face(hole.at.at).ok_or_else(leaves)?;
+    let outer = Mouth { face, at: hole.at.at, z: 0.0 };
     let path = format!("film/{}/{:03}", hole.row.name, hole.number);
     let stages: &[&str] = if feed.shape.sections.len() > 2 { &["metering", "diffuser"] } else { &["bore"] };
     let style = style::film();
     let names = BoreNames { path: &path, stages, style: &style };
-    let passage = &mut blank.passages[feed.passage];
-    let bored = drill
-        .bore(blank.model, &feed.shape, [(&passage.faces, feed.mouth), (blank.outer, outer)], &names)
-        .map_err(|error| bore_fault(hole, &error))?;
-    let [lower, upper] = bored.imprints;
-    passage.faces.extend(lower.parts.iter().map(|(part, _)| *part));
-    blank.outer.extend(upper.parts.iter().map(|(part, _)| *part));
-    for (_, border) in &upper.inside {
-        inside_blade(blank, border, hole)?;
-    }
-    let exits: Vec<FaceId> = (upper.inside.into_iter().enumerate())
-        .map(|(i, (parent, border))| {
-            let name = if i == 0 { format!("{path}/exit") } else { format!("{path}/exit/{}", i + 1) };
-            add_exit(blank.model, name, parent, border)
-        })
-        .collect();
-    let passage = &mut blank.passages[feed.passage];
-    passage.branches.push(Branch {
-        faces: bored.faces,
-        ends: exits.iter().map(|&face| FaceUse { face, forward: blank.outward }).collect(),
-    });
+    let exits = blank
+        .bore_out(drill, &feed.shape, feed.passage, [feed.mouth, outer], &names)
+        .map_err(|error| hole.fault(error.code(), error))?;
     Ok(FilmHoleGeometry {
         row: hole.row.name.clone(),
         number: hole.number,
-        passage: passage.name.clone(),
+        passage: blank.passages[feed.passage].name.clone(),
         exit: hole.at.point,
         axis: hole.axis,
         diameter: 2.0 * hole.radius,
@@ -167,24 +133,4 @@ fn drill_hole(
         ligament,
         exits,
     })
-}
-
-fn bore_fault(hole: &Hole<'_>, error: &BoreError) -> Fault {
-    let code = match error {
-        BoreError::Leaves(_) => "leaves_face",
-        BoreError::TooShort(_) => "wall_too_thin",
-        BoreError::Misses | BoreError::Inaccurate | BoreError::Geometry(_) => "geometry",
-    };
-    hole.fault(code, error)
-}
-
-/// The outer face on which the hole breaks out.
-fn outer_mouth(model: &Model, outer: &[FaceId], hole: &Hole<'_>) -> Option<Mouth> {
-    let at = hole.at.at;
-    let face = outer.iter().copied().find(|&face| {
-        let face = model.face(face);
-        let ((u0, u1), _) = face.surface.domain();
-        (u0..=u1).contains(&at.x)
-    })?;
-    Some(Mouth { face, at, z: 0.0 })
 }
