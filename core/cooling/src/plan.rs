@@ -1,6 +1,6 @@
 //! The plan: a design's cooling with its laws made ready and everything checked that needs no geometry.
 
-use crate::design::{Chamber, Cooling, FilmRow, HolePlacement, HoleShape, Side};
+use crate::design::{Chamber, Cooling, FilmRow, HolePlacement, HoleShape, Side, SlotRow};
 use coolinggen_blade::{Fault, Law, LawSpec, Pointer};
 use std::collections::HashSet;
 
@@ -17,7 +17,9 @@ pub struct Plan {
     pub radial_holes: Vec<RadialHolePlan>,
     /// Rows of film holes.
     pub film_rows: Vec<FilmRowPlan>,
-    /// Least metal between neighbouring bores, mm.
+    /// Rows of slots.
+    pub slot_rows: Vec<SlotRowPlan>,
+    /// Least metal between neighbouring film holes, mm.
     pub least_ligament: f64,
 }
 
@@ -116,6 +118,23 @@ pub enum RowPlacement {
     Camber(Law),
 }
 
+/// A row of slots; see [`crate::design::SlotRow`].
+#[derive(Clone, Debug)]
+pub struct SlotRowPlan {
+    /// Name.
+    pub name: String,
+    /// Span fractions.
+    pub span: [f64; 2],
+    /// Number of slots or greatest pitch, mm.
+    pub slots: RowHoles,
+    /// Millimetres along the span.
+    pub height: f64,
+    /// Millimetres across the blade.
+    pub width: f64,
+    /// Millimetres.
+    pub corner_radius: f64,
+}
+
 /// How many holes a row has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RowHoles {
@@ -186,7 +205,47 @@ impl Maker {
         let radial_holes = self.radial_holes(cooling, &root.at("radial_holes"));
         self.unique(cooling.film_rows.iter().map(|r| r.name.as_str()), &root.at("film_rows"));
         let film_rows = self.film_rows(cooling, &root.at("film_rows"));
-        Plan { shell, walls, chambers, radial_holes, film_rows, least_ligament: cooling.least_ligament }
+        self.unique(cooling.slot_rows.iter().map(|r| r.name.as_str()), &root.at("slot_rows"));
+        let slots = cooling.slot_rows.iter().enumerate();
+        let slot_rows = slots
+            .filter_map(|(i, row)| {
+                self.slot_row(row, !cooling.chambers.is_empty(), &root.at("slot_rows").at(i))
+            })
+            .collect();
+        let least_ligament = cooling.least_ligament;
+        Plan { shell, walls, chambers, radial_holes, film_rows, slot_rows, least_ligament }
+    }
+
+    /// None, with faults, where the row's number is not said once.
+    fn slot_row(&mut self, row: &SlotRow, has_chambers: bool, at: &Pointer) -> Option<SlotRowPlan> {
+        if !has_chambers {
+            let message = "slots are fed by the trailing chamber, and there is none";
+            self.faults.push(Fault::new(at.clone(), "missing", message));
+        }
+        let greatest = 0.5 * row.height.min(row.width);
+        if row.corner_radius > greatest {
+            let message = "the corners meet before they are round".to_owned();
+            let fault = Fault::new(at.at("corner_radius"), "limit", message).value(row.corner_radius);
+            self.faults.push(fault.max(greatest).unit("mm"));
+        }
+        self.ordered_span(row.span, at);
+        let numbers = [row.count.map(RowHoles::Count), row.pitch.map(RowHoles::Pitch)];
+        Some(SlotRowPlan {
+            name: row.name.clone(),
+            span: row.span,
+            slots: self.one_of(numbers, at, "count or pitch")?,
+            height: row.height,
+            width: row.width,
+            corner_radius: row.corner_radius,
+        })
+    }
+
+    fn ordered_span(&mut self, span: [f64; 2], at: &Pointer) {
+        if span[1] < span[0] {
+            let message = format!("the span [{}, {}] must not end before it starts", span[0], span[1]);
+            let fault = Fault::new(at.at("span"), "order", message).value(span[1]).min(span[0]);
+            self.faults.push(fault.unit("span fraction"));
+        }
     }
 
     fn film_rows(&mut self, cooling: &Cooling, list: &Pointer) -> Vec<FilmRowPlan> {
@@ -207,12 +266,7 @@ impl Maker {
         let diameter = self.law(&row.hole.diameter, &hole.at("diameter"));
         let inclination_deg = self.law(&row.hole.inclination_deg, &hole.at("inclination_deg"));
         let compound_deg = self.law(&row.hole.compound_deg, &hole.at("compound_deg"));
-        if row.span[1] < row.span[0] {
-            let message =
-                format!("the span [{}, {}] must not end before it starts", row.span[0], row.span[1]);
-            let fault = Fault::new(at.at("span"), "order", message).value(row.span[1]).min(row.span[0]);
-            self.faults.push(fault.unit("span fraction"));
-        }
+        self.ordered_span(row.span, at);
         if let Some(name) = row.chamber.as_ref().filter(|name| chambers.iter().all(|c| c.name != **name)) {
             let message = format!("there is no chamber \"{name}\"");
             self.faults.push(Fault::new(at.at("chamber"), "unknown_name", message).value(name.as_str()));

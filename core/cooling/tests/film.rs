@@ -1,4 +1,4 @@
-//! Film holes on the rotor with three chambers: solids, genus, names, and what is refused.
+//! Film holes and slots on the rotor with three chambers: solids, genus, names, and what is refused.
 
 use coolinggen_blade::Fault;
 use coolinggen_cooling::design::Design;
@@ -8,9 +8,13 @@ use std::collections::HashSet;
 use std::path::Path;
 
 fn rotor(rows: Value) -> Result<Generated, Vec<Fault>> {
+    rotor_with("film_rows", rows)
+}
+
+fn rotor_with(field: &str, rows: Value) -> Result<Generated, Vec<Fault>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples/rotor.json");
     let mut design: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    design["cooling"]["film_rows"] = rows;
+    design["cooling"][field] = rows;
     generate(&Design::from_json(&design.to_string())?, Path::new("."))
 }
 
@@ -128,4 +132,31 @@ fn place_and_number_must_be_said_once() {
     twice["pitch"] = json!(3.0);
     let faults = rotor(json!([twice])).expect_err("refused");
     assert_eq!(faults.iter().filter(|f| f.code == "one_of").count(), 2, "{faults:?}");
+}
+
+fn slots(count: u32, height: f64, width: f64) -> Value {
+    json!([{ "name": "te", "span": [0.05, 0.9], "count": count, "height": height, "width": width, "corner_radius": 0.1 }])
+}
+
+#[test]
+fn slots_through_the_trailing_edge() {
+    let generated = rotor_with("slot_rows", slots(9, 2.0, 0.4)).unwrap_or_else(|f| panic!("{f:?}"));
+    check(&generated, 0);
+    assert_eq!(generated.report.genus["metal"].found, Some(9));
+    assert_eq!(generated.report.slots.len(), 9);
+    for slot in &generated.report.slots {
+        assert_eq!(slot.passage, "trailing");
+        // The rectangle less its corners, a little more where the edge is round.
+        let section = 2.0 * 0.4 - (4.0 - std::f64::consts::PI) * 0.01;
+        assert!(slot.breakout_mm2 > section && slot.breakout_mm2 < 1.1 * section, "{}", slot.breakout_mm2);
+    }
+}
+
+#[test]
+fn slots_that_do_not_fit_are_refused() {
+    let codes =
+        |rows| rotor_with("slot_rows", rows).expect_err("refused").iter().map(|f| f.code).collect::<Vec<_>>();
+    assert_eq!(codes(slots(40, 2.0, 0.4)), ["ligament"]);
+    assert_eq!(codes(slots(1, 2.0, 2.5)), ["meets_wall"]);
+    assert_eq!(codes(slots(1, 2.0, 0.15)), ["limit"]);
 }

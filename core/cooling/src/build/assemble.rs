@@ -9,6 +9,7 @@ use super::passages::{Passage, add_chambers};
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section, span_fractions};
 use super::sides::Sides;
+use super::slots::{SlotGeometry, add_slot_rows};
 use super::stack::Stack;
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
@@ -35,6 +36,8 @@ pub struct CooledBlade {
     pub radial_holes: Vec<RadialHoleGeometry>,
     /// The film holes, row by row.
     pub film_holes: Vec<FilmHoleGeometry>,
+    /// The slots, row by row.
+    pub slots: Vec<SlotGeometry>,
 }
 
 /// Builds metal and coolant.
@@ -45,22 +48,24 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let mut model = Model::default();
     let ends = [space.surface(0.0)?, space.surface(1.0)?];
     let mut outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
-    let (mut passages, mut radial_holes, mut film_holes) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut passages, mut radial_holes) = (Vec::new(), Vec::new());
+    let (mut film_holes, mut slots) = (Vec::new(), Vec::new());
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
         let grid = Grid::new(blade)?;
         let mut polygons = Vec::new();
-        let mut sections = Vec::new();
+        let (mut sections, mut tails) = (Vec::new(), Vec::new());
         if let (Some(shell), false) = (&plan.shell, plan.chambers.is_empty()) {
             let blamed = |e: BuildError| e.blamed_on("/cooling/chambers");
             let stack = Stack::new(blade, space, &grid, plan, shell).map_err(blamed)?;
             (passages, polygons) = add_chambers(&mut model, blade, &stack, plan).map_err(blamed)?;
+            tails = stack.tails();
             sections = stack.sections;
         }
         if !plan.radial_holes.is_empty() {
             radial_holes = place_radial_holes(blade, space, &grid, plan, &polygons)?;
             passages.extend(add_radial_holes(&mut model, &radial_holes, &ends)?);
         }
-        if !plan.film_rows.is_empty() {
+        if !plan.film_rows.is_empty() || !plan.slot_rows.is_empty() {
             if sections.is_empty() {
                 let fractions = span_fractions(&[[0.0, 1.0]]);
                 sections = fractions
@@ -72,12 +77,14 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
             let (outer, outward) = (&mut outer.faces, blade.outward);
             let mut blank = Blank { model: &mut model, outer, passages: &mut passages, outward, ends: &ends };
             film_holes = add_film_rows(&mut blank, &sides, &plan.film_rows, plan.least_ligament)?;
+            slots = add_slot_rows(&mut blank, &sections, &tails, &plan.slot_rows)?;
         }
     }
     let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
     let caps = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
     let mut outer_faces = outer.faces;
     outer_faces.extend(film_holes.iter().flat_map(|hole| &hole.exits));
+    outer_faces.extend(slots.iter().flat_map(|slot| &slot.exits));
     Ok(CooledBlade {
         model,
         outer_faces,
@@ -87,6 +94,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         end_surfaces: ends,
         radial_holes,
         film_holes,
+        slots,
     })
 }
 

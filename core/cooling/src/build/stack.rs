@@ -6,6 +6,7 @@ use super::sections::{Grid, Section, WallLine, span_fractions, wall_lines};
 use super::shell::{EndRadii, OffsetSection, offset_section};
 use crate::plan::{Plan, ShellPlan};
 use coolinggen_blade::{Blade, Fault, StreamSpace};
+use glam::DVec3;
 
 /// Sections at all span fractions at which a chamber has one.
 #[derive(Clone, Debug)]
@@ -60,6 +61,12 @@ impl Stack {
             round_noses(grid, &sections, &mut offsets, spans[0], ends)?
         };
         Ok(Self { sections, offsets, walls, spans, nose })
+    }
+
+    /// The middle of the trailing chamber's end on each section.
+    pub(super) fn tails(&self) -> Vec<DVec3> {
+        let tail = |(s, o): (&Section, &OffsetSection)| s.stream.to_space(o.camber.back().center);
+        self.sections.iter().zip(&self.offsets).map(tail).collect()
     }
 
     /// Indices of the sections within a span range.

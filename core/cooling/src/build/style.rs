@@ -31,6 +31,11 @@ pub(super) fn film() -> Style {
     style("film", [0.80, 0.30, 0.30])
 }
 
+/// Walls of slots.
+pub(super) fn slot() -> Style {
+    style("slot", [0.55, 0.35, 0.75])
+}
+
 /// Where coolant enters.
 pub(super) fn inlet() -> Style {
     style("coolant/inlet", [0.16, 0.45, 0.85])

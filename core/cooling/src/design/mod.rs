@@ -8,12 +8,14 @@ mod film;
 mod radial_holes;
 mod read;
 mod schema;
+mod slots;
 mod spelling;
 
 pub use chambers::{Chamber, Shell, Wall};
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, schema_faults};
+pub use slots::SlotRow;
 
 use crate::plan::Plan;
 use coolinggen_blade::{BladeSource, Fault, SpaceSpec};
@@ -69,6 +71,10 @@ pub struct Cooling {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
     pub film_rows: Vec<FilmRow>,
+    /// Rows of slots through the trailing edge.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub slot_rows: Vec<SlotRow>,
     /// Least metal between neighbouring film holes, mm; less is refused.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "mm"))]

@@ -3,7 +3,7 @@
 mod text;
 mod thickness;
 
-use crate::build::{BuildError, CooledBlade, FilmHoleGeometry, RadialHoleGeometry};
+use crate::build::{BuildError, CooledBlade, FilmHoleGeometry, RadialHoleGeometry, SlotGeometry};
 use coolinggen_blade::{Blade, FitReport};
 use coolinggen_brep::{Face, FaceIntegrals, Model, SolidCheck, face_integrals};
 use serde::Serialize;
@@ -41,6 +41,9 @@ pub struct Report {
     /// The film holes, row by row from hub to tip.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub holes: Vec<HoleReport>,
+    /// The slots, row by row from hub to tip.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub slots: Vec<SlotReport>,
     /// How the outer surface compares with the data it was made from.
     pub blade_fit: FitReport,
     /// Time spent, milliseconds.
@@ -150,6 +153,30 @@ pub struct HoleReport {
     pub ligament_mm: Option<f64>,
 }
 
+/// A slot.
+#[derive(Clone, Debug, Serialize)]
+pub struct SlotReport {
+    /// Path of its faces: `slot/<row>/<number>`.
+    pub name: String,
+    /// Passage that feeds it.
+    pub passage: String,
+    /// Where its axis breaks out.
+    pub position_mm: [f64; 3],
+    /// Unit direction of its axis, out of the blade.
+    pub direction: [f64; 3],
+    /// Size along the span.
+    pub height_mm: f64,
+    /// Size across the blade.
+    pub width_mm: f64,
+    /// Length of the axis in the metal.
+    pub length_mm: f64,
+    /// Metal to the next slot of the row.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub land_mm: Option<f64>,
+    /// Area of the breakout in the outer surface.
+    pub breakout_mm2: f64,
+}
+
 /// Time spent, milliseconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Timings {
@@ -184,6 +211,7 @@ impl Report {
             wall_thickness_mm: None,
             radial_holes: Vec::new(),
             holes: cooled.film_holes.iter().map(|hole| hole_report(hole, &integrals)).collect(),
+            slots: cooled.slots.iter().map(|slot| slot_report(slot, &integrals)).collect(),
             blade_fit: blade.fit.clone(),
             timings_ms: Timings::default(),
         };
@@ -296,6 +324,20 @@ fn hole_report(hole: &FilmHoleGeometry, integrals: &[FaceIntegrals]) -> HoleRepo
         breakout_mm2: hole.exits.iter().map(|f| integrals[f.0].area_mm2).sum(),
         coverage: hole.coverage,
         ligament_mm: hole.ligament,
+    }
+}
+
+fn slot_report(slot: &SlotGeometry, integrals: &[FaceIntegrals]) -> SlotReport {
+    SlotReport {
+        name: format!("slot/{}/{:03}", slot.row, slot.number),
+        passage: slot.passage.clone(),
+        position_mm: slot.exit.to_array(),
+        direction: slot.axis.to_array(),
+        height_mm: slot.size[0],
+        width_mm: slot.size[1],
+        length_mm: slot.length,
+        land_mm: slot.land,
+        breakout_mm2: slot.exits.iter().map(|f| integrals[f.0].area_mm2).sum(),
     }
 }
 
