@@ -2,6 +2,7 @@
 
 mod assemble;
 pub(crate) mod closed;
+pub(crate) mod medial;
 pub(crate) mod pritchard;
 pub(crate) mod sections;
 pub(crate) mod step;
@@ -12,6 +13,7 @@ use crate::fault::{Fault, Pointer};
 use crate::stream::{SpaceSpec, StreamSpace};
 use coolinggen_nurbs::ParametricSurface;
 use glam::DVec2;
+use medial::TurbineSource;
 use pritchard::PritchardSource;
 use schemars::JsonSchema;
 use sections::SectionsSource;
@@ -31,6 +33,9 @@ pub enum BladeSource {
     Sections(SectionsSource),
     /// The eleven parameters of an axial turbine section.
     Pritchard(Box<PritchardSource>),
+    /// A turbine blade from hydraulic parameters.
+    #[serde(rename = "medial-turbine")]
+    MedialTurbine(Box<TurbineSource>),
     /// A surface, inline.
     Surface(SurfaceSource),
     /// The surface or surfaces in a STEP file.
@@ -76,6 +81,7 @@ impl BladeSource {
         match self {
             Self::Sections(source) => source.blade(space),
             Self::Pritchard(source) => source.blade(space),
+            Self::MedialTurbine(source) => source.blade(space),
             Self::Surface(source) => source.blade(space),
             Self::Step(source) => source.blade(space, folder),
         }
