@@ -6,6 +6,8 @@ use glam::DVec3;
 /// Rounds over all knots, and the step they begin with, in parts of the gap to a neighbour.
 const ROUNDS: usize = 24;
 const STEP: f64 = 0.4;
+/// Steps of correction at a time.
+const STEPS: usize = 6;
 /// Spans that refinement begins with.
 const START: usize = 6;
 
@@ -49,6 +51,33 @@ pub(super) fn optimised(
         }
     }
     Knots::clamped(degree, &breaks)
+}
+
+/// The parameters moved towards the closest points of fits on `knots`, by the mean of what the lines ask for (Hoschek's
+/// intrinsic parametrization, common to all lines). They stay in order, and the ends where they are.
+pub(super) fn corrected(
+    knots: &Knots,
+    parameters: &[f64],
+    lines: &[Vec<DVec3>],
+) -> Result<Vec<f64>, NurbsError> {
+    let mut s = parameters.to_vec();
+    for _ in 0..STEPS {
+        let fit = fit(knots, &s)?;
+        let mut moves = vec![0.0; s.len()];
+        for line in lines {
+            let curve = fit.curve(line, &[line[0], line[line.len() - 1]])?.curve;
+            for (i, step) in moves.iter_mut().enumerate() {
+                let [p, d, _] = curve.derivatives(s[i]);
+                *step += (line[i] - p).dot(d) / d.length_squared() / lines.len() as f64;
+            }
+        }
+        for i in 1..s.len() - 1 {
+            // By less than half of the way to a neighbour.
+            let room = 0.45 * (s[i] - s[i - 1]).min(s[i + 1] - s[i]);
+            s[i] += moves[i].clamp(-room, room);
+        }
+    }
+    Ok(s)
 }
 
 /// Knots for least-squares fits of `lines` that come within `tolerance`: spans are halved where they do not, as long as

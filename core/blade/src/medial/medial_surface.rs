@@ -32,21 +32,38 @@ fn pace(u: f64) -> f64 {
 const SECOND_AT_START: f64 = 3.0;
 const FIRST_AT_END: f64 = 1.5;
 
-/// Data a span for each degree of freedom in it.
-const DENSITY: usize = 2;
+/// Streamlines at the stations that fits on some knots in v take, and some between to check these fits with.
+#[derive(Clone, Debug)]
+pub(crate) struct Streamlines {
+    knots: Knots,
+    v: Vec<f64>,
+    lines: Vec<Streamline>,
+    checks: Vec<(f64, Streamline)>,
+}
 
-impl MedialSurface {
-    /// The best surface on these knots in the sense of least squares (Eq. 10), with Eq. 9. Points, the direction at the
-    /// leading edge and the derivative at the trailing edge are met; `streamline` draws the one of v.
-    pub(crate) fn new<E: From<NurbsError>>(
-        knots_u: &Knots,
-        knots_v: &Knots,
+impl Streamlines {
+    /// Draws them; `streamline` draws the one of v.
+    pub(crate) fn new<E>(
+        knots: Knots,
         streamline: impl Fn(f64) -> Result<Streamline, E>,
     ) -> Result<Self, E> {
-        let (us, vs) = (stations(knots_u), stations(knots_v));
+        let v = stations(&knots);
+        let lines = v.iter().map(|&v| streamline(v)).collect::<Result<_, _>>()?;
+        let between = |j: usize| 0.5 * (v[j] + v[j + 1]);
+        let checks = [1, 3, 5, 7].map(|j| between(j * (v.len() - 2) / 8));
+        let checks = checks.into_iter().map(|v| Ok((v, streamline(v)?))).collect::<Result<_, E>>()?;
+        Ok(Self { knots, v, lines, checks })
+    }
+}
+
+impl MedialSurface {
+    /// The best surface on `knots_u` and the streamlines' knots in the sense of least squares (Eq. 10), with Eq. 9.
+    /// Points, the direction at the leading edge and the derivative at the trailing edge are met.
+    pub(crate) fn new(knots_u: &Knots, streamlines: &Streamlines) -> Result<Self, NurbsError> {
+        let (us, vs) = (stations(knots_u), &streamlines.v);
         let mut points = vec![DVec3::ZERO; (us.len() + 2) * vs.len()];
-        for (j, &v) in vs.iter().enumerate() {
-            for (i, p) in column(&streamline(v)?, &us).into_iter().enumerate() {
+        for (j, line) in streamlines.lines.iter().enumerate() {
+            for (i, p) in column(line, &us).into_iter().enumerate() {
                 points[i * vs.len() + j] = p;
             }
         }
@@ -63,11 +80,10 @@ impl MedialSurface {
         ];
         let (constraints_u, values_u): (Vec<_>, Vec<_>) = along_u.into_iter().unzip();
         let fit_u = LeastSquares::new(knots_u.clone(), &parameters, Some(&weights), &constraints_u, None)?;
-        let (fit_v, values_v) = ends_met(knots_v, &vs)?;
-        let mut surface = fit_u.surface(&fit_v, &points, &values_u, &values_v)?;
-        surface = with_equal_first_rows(&surface)?;
-        let residual = residual(&surface, &streamline)?;
-        let (normals, normal_residual) = normals(&surface, &us, &vs)?;
+        let (fit_v, values_v) = ends_met(&streamlines.knots, vs)?;
+        let surface = with_equal_first_rows(&fit_u.surface(&fit_v, &points, &values_u, &values_v)?)?;
+        let residual = residual(&surface, &streamlines.checks);
+        let (normals, normal_residual) = normals(&surface, &us, vs)?;
         Ok(Self { surface, normals, residual, normal_residual })
     }
 }
@@ -83,7 +99,7 @@ fn column(streamline: &Streamline, us: &[f64]) -> Vec<DVec3> {
 
 /// Data parameters for a fit on `knots`: evenly in every span, the breaks among them.
 pub(super) fn stations(knots: &Knots) -> Vec<f64> {
-    let each = DENSITY * (knots.degree() + 1);
+    let each = knots.degree() + 3;
     let breaks = knots.breaks();
     let spans = breaks.windows(2).flat_map(|w| (0..each).map(|k| w[0] + (w[1] - w[0]) * k as f64 / each as f64));
     spans.chain(breaks.last().copied()).collect()
@@ -131,19 +147,13 @@ fn normals(surface: &Surface<DVec3>, us: &[f64], vs: &[f64]) -> Result<(Surface<
     Ok((normals, worst))
 }
 
-fn residual<E>(
-    surface: &Surface<DVec3>,
-    streamline: impl Fn(f64) -> Result<Streamline, E>,
-) -> Result<f64, E> {
-    let (checks, mut worst) = (8, 0.0f64);
-    for j in 0..checks {
-        // Not at the data.
-        let v = (f64::from(j) + 0.47) / f64::from(checks);
-        let line = streamline(v)?;
-        for i in 0..=150 {
-            let u = f64::from(i) / 150.0;
-            worst = worst.max(surface.point(u, v).distance(line.at(line.at_fraction(pace(u))).0));
+fn residual(surface: &Surface<DVec3>, checks: &[(f64, Streamline)]) -> f64 {
+    let mut worst: f64 = 0.0;
+    for (v, line) in checks {
+        for i in 0..=200 {
+            let u = f64::from(i) / 200.0;
+            worst = worst.max(surface.point(u, *v).distance(line.at(line.at_fraction(pace(u))).0));
         }
     }
-    Ok(worst)
+    worst
 }

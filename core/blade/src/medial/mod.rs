@@ -20,8 +20,7 @@ mod skin;
 mod streamline;
 mod trace;
 
-pub(crate) use deviation::Deviation;
-pub(crate) use medial_surface::{MedialSurface, unit_normal};
+pub(crate) use medial_surface::{MedialSurface, Streamlines, unit_normal};
 pub(crate) use pace::Pace;
 pub(crate) use profile::{Profile, ProfileFlaw};
 pub(crate) use sides::{Side, Sides};

@@ -25,42 +25,50 @@ pub(crate) struct SkinSize {
 pub(crate) struct Skin {
     /// The surface.
     pub(crate) surface: Surface<DVec3>,
-    /// s at the leading edge.
-    pub(crate) nose: f64,
     /// The side that is run through first, backwards: its index in [`Sides`].
     pub(crate) first: usize,
     places: Places,
 }
 
-/// How s depends on t, by interpolation between nodes.
+/// How s depends on t: s goes from the nose with t + c t^2 (1 - t)^2 towards either end.
+///
+/// x grows with t^2 there, so that in t the nose is close to a parabola, which few spans take. c removes the term in t^2
+/// of y, which would have opposite signs on the two sides: s then runs over the nose with two continuous derivatives.
+/// Where the scales of the sides differ, so do the parts of s, for one speed at the nose.
 #[derive(Clone, Debug)]
 struct Places {
-    /// Nodes a side.
+    /// Data a side.
     count: usize,
-    /// s at node `k` from the start; node `count` is the nose.
+    /// s at the data, evenly in t, from end to end; datum `count` is the nose.
     s: Vec<f64>,
 }
 
 /// Least number of data a side, and data for each control point.
 const LEAST: usize = 120;
 const DENSITY: usize = 6;
+/// Rounds of putting knots and correcting parameters in turn.
+const CORRECTIONS: usize = 4;
 /// Data a side where a tolerance is to be kept.
 const FINE: usize = 400;
 
 impl Skin {
     /// The skin of a size, beginning with side `first`.
     pub(crate) fn new(sides: &Sides, first: usize, size: SkinSize) -> Result<Self, NurbsError> {
-        let places = Places::new(sides, first, LEAST.max(DENSITY * size.counts[0]));
+        let mut places = Places::new(sides, first, LEAST.max(DENSITY * size.counts[0]));
         let data = Data::new(sides, first, &places);
         let [p, q] = size.degree;
         let mut knots_u = Knots::uniform(p, size.counts[0])?;
         let mut knots_v = Knots::uniform(q, size.counts[1])?;
         if size.optimised {
-            knots_u = knots::optimised(knots_u, &places.s, &data.columns())?;
+            let lines = data.columns();
+            for _ in 0..CORRECTIONS {
+                knots_u = knots::optimised(knots_u, &places.s, &lines)?;
+                places.s = knots::corrected(&knots_u, &places.s, &lines)?;
+            }
             knots_v = knots::optimised(knots_v, &data.v, &data.rows())?;
         }
         let surface = data.fit(&knots_u, &knots_v, &places.s)?;
-        Ok(Self { surface, nose: places.s[places.count], first, places })
+        Ok(Self { surface, first, places })
     }
 
     /// The skin beginning with side `first` that is about within `tolerance` (mm) of the sides, its knots inserted
@@ -78,7 +86,7 @@ impl Skin {
         let knots_u = knots::refined(degree[0], &places.s, &data.columns(), share)?;
         let knots_v = knots::refined(degree[1], &data.v, &data.rows(), share)?;
         let surface = data.fit(&knots_u, &knots_v, &places.s)?;
-        Ok(Self { surface, nose: places.s[places.count], first, places })
+        Ok(Self { surface, first, places })
     }
 
     /// s at `t` of side `k`.
@@ -99,25 +107,22 @@ impl Skin {
 
 impl Places {
     fn new(sides: &Sides, first: usize, count: usize) -> Self {
-        // The mean over some lines of the arc length, as a part of its total.
-        let lines = 7;
-        let mut s = vec![0.0; 2 * count + 1];
-        for j in 0..lines {
-            let v = f64::from(j) / f64::from(lines - 1);
-            let mut walked = vec![0.0];
-            let mut before = sides.point(first, 1.0, v);
-            for i in 1..=2 * count {
-                let here = side_point(sides, first, count, i, v);
-                walked.push(walked[i - 1] + here.distance(before));
-                before = here;
-            }
-            let total = walked[2 * count];
-            s.iter_mut().zip(walked).for_each(|(s, w)| *s += w / total / f64::from(lines));
-        }
-        s[2 * count] = 1.0;
-        Self { count, s }
+        let side = |k: usize| &sides.sides[if k == 0 { first } else { 1 - first }];
+        let speed = [0, 1].map(|k| side(k).scale.at(0.5) * side(k).profile.at(0.0)[1].y);
+        let bend = [0, 1].map(|k| {
+            let [_, slope, change] = side(k).profile.at(0.0);
+            (0.5 * change.y / slope.y).clamp(-2.0, 2.0)
+        });
+        let nose = speed[0] / (speed[0] + speed[1]);
+        let along = |k: usize, t: f64| t + bend[k] * (t * (1.0 - t)).powi(2);
+        let s = (0..=2 * count).map(|i| {
+            let t = (i as f64 - count as f64) / count as f64;
+            if t > 0.0 { nose + (1.0 - nose) * along(1, t) } else { nose * (1.0 - along(0, -t)) }
+        });
+        Self { count, s: s.collect() }
     }
 
+    /// s at `t` of the side run through first or second, by interpolation.
     fn at(&self, second: bool, t: f64) -> f64 {
         let place = if second { 1.0 + t } else { 1.0 - t } * self.count as f64;
         let i = (place as usize).min(2 * self.count - 1);
@@ -143,7 +148,7 @@ impl Data {
         let lines = 48;
         let v: Vec<f64> = (0..=lines).map(|j| f64::from(j) / f64::from(lines)).collect();
         let row = |i: usize| v.iter().map(|&v| side_point(sides, first, places.count, i, v)).collect();
-        let points = (0..places.s.len()).map(row).collect();
+        let points = (0..=2 * places.count).map(row).collect();
         Self { v, points }
     }
 

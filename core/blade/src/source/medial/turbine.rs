@@ -8,7 +8,7 @@ use crate::error::BladeError;
 use crate::fault::{Fault, Pointer};
 use crate::law::{Law, LawSpec};
 use crate::medial::{
-    Angles, MedialSurface, Pace, Profile, Side, Sides, Streamline, Trace, TraceFlaw,
+    Angles, MedialSurface, Pace, Profile, Side, Sides, Streamline, Streamlines, Trace, TraceFlaw,
 };
 use crate::source::OUTSIDE_CONTOURS;
 use crate::stream::{Annular, ContourSpec, StreamSpace};
@@ -171,9 +171,11 @@ struct Plan<'a> {
     closing: ClosingSpec,
 }
 
-/// How close the medial surface is brought to its streamlines, in parts of their length, and its most spans both ways.
-const MEDIAL: f64 = 1e-7;
-const MOST_SPANS: [usize; 2] = [64, 32];
+/// How close the medial surface is brought to its streamlines, in parts of their length, and the spans it is tried
+/// with.
+const MEDIAL: f64 = 1e-6;
+const SPANS_AROUND: [usize; 2] = [24, 64];
+const SPANS_ALONG: [usize; 2] = [6, 24];
 /// The residual of Eq. 19 that is good enough.
 const PACE: f64 = 1e-5;
 
@@ -348,18 +350,21 @@ impl Plan<'_> {
     fn medial(&self) -> Result<MedialSurface, Vec<Fault>> {
         let length = self.streamline(0.5)?.length();
         self.wrapped()?;
-        let mut spans = [16, 8];
-        loop {
-            let knots_u = Knots::clamped(5, &even(spans[0])).map_err(failed)?;
-            let knots_v = self.knots_v(spans[1]).map_err(failed)?;
-            let medial = MedialSurface::new::<Trouble>(&knots_u, &knots_v, |v| Ok(self.streamline(v)?));
-            let medial = medial.map_err(|t| t.0)?;
-            let done = medial.residual <= MEDIAL * length && medial.normal_residual <= 1e2 * MEDIAL;
-            if done || spans[0] >= MOST_SPANS[0] {
-                return Ok(medial);
+        let mut medial = None;
+        for along in SPANS_ALONG {
+            let knots = self.knots_v(along).map_err(failed)?;
+            let streamlines = Streamlines::new(knots, |v| self.streamline(v))?;
+            for around in SPANS_AROUND {
+                let knots = Knots::clamped(5, &even(around)).map_err(failed)?;
+                let made = MedialSurface::new(&knots, &streamlines).map_err(failed)?;
+                let done = made.residual <= MEDIAL * length && made.normal_residual <= 1e2 * MEDIAL;
+                medial = Some(made);
+                if done {
+                    return medial.ok_or_else(Vec::new);
+                }
             }
-            spans = [2 * spans[0], (2 * spans[1]).min(MOST_SPANS[1])];
         }
+        medial.ok_or_else(Vec::new)
     }
 
     /// Quintic knots over the span, with room for the kinks in derivatives that laws and traces have at their knots.
@@ -437,19 +442,4 @@ fn even(spans: usize) -> Vec<f64> {
 
 fn failed(e: NurbsError) -> Vec<Fault> {
     vec![Fault::new("", "no_surface", format!("the parameters make no surface: {e}"))]
-}
-
-/// Faults of the design, or of the kernel as such.
-struct Trouble(Vec<Fault>);
-
-impl From<NurbsError> for Trouble {
-    fn from(error: NurbsError) -> Self {
-        Self(failed(error))
-    }
-}
-
-impl From<Vec<Fault>> for Trouble {
-    fn from(faults: Vec<Fault>) -> Self {
-        Self(faults)
-    }
 }

@@ -58,7 +58,12 @@ pub(super) fn blade(
         ),
     ];
     let outward = surface.is_outward();
-    let fit = FitReport { greatest_distance_mm: deviation.greatest, notes, ..assemble::report(&surface) };
+    let fit = FitReport {
+        greatest_distance_mm: deviation.greatest,
+        average_distance_mm: deviation.average,
+        notes,
+        ..assemble::report(&surface)
+    };
     Ok(Blade { surface, regions, outward, fit })
 }
 
