@@ -1,6 +1,7 @@
 //! Knots put where they serve best.
 
-use coolinggen_nurbs::{Constraint, Curve, Knots, LeastSquares, NurbsError, ParametricCurve};
+use super::medial_surface::points_met;
+use coolinggen_nurbs::{Curve, Knots, NurbsError, ParametricCurve};
 use glam::DVec3;
 
 /// Rounds over all knots, and the step they begin with, in parts of the gap to a neighbour.
@@ -12,17 +13,18 @@ const STEPS: usize = 6;
 const START: usize = 6;
 
 /// Moves the inner knots of `start` until least-squares fits of the `lines` (points at `parameters`) leave the least
-/// sum of squared distances: one knot after the other, with steps that shrink where they do not help. The first and
-/// last points are met, as in the fit that the knots are for.
+/// sum of squared distances: one knot after the other, with steps that shrink where they do not help. The points of
+/// the indices `met` are met, as in the fit that the knots are for.
 pub(super) fn optimised(
     start: Knots,
     parameters: &[f64],
     lines: &[Vec<DVec3>],
+    met: &[usize],
 ) -> Result<Knots, NurbsError> {
     let degree = start.degree();
     let mut breaks = start.breaks();
     let inner = breaks.len() - 2;
-    let mut best = left_over(&start, parameters, lines)?;
+    let mut best = left_over(&start, parameters, lines, met)?;
     let mut steps = vec![STEP; inner];
     for _ in 0..ROUNDS {
         let before = best;
@@ -33,7 +35,7 @@ pub(super) fn optimised(
                 breaks[k] = old + sign * steps[k - 1] * gap;
                 // Spans without data make no fit: such a step is not taken.
                 let now = Knots::clamped(degree, &breaks)
-                    .and_then(|knots| left_over(&knots, parameters, lines))
+                    .and_then(|knots| left_over(&knots, parameters, lines, met))
                     .unwrap_or(f64::INFINITY);
                 if now < best {
                     best = now;
@@ -59,13 +61,14 @@ pub(super) fn corrected(
     knots: &Knots,
     parameters: &[f64],
     lines: &[Vec<DVec3>],
+    met: &[usize],
 ) -> Result<Vec<f64>, NurbsError> {
     let mut s = parameters.to_vec();
     for _ in 0..STEPS {
-        let fit = fit(knots, &s)?;
+        let fit = points_met(knots, &s, met)?.0;
         let mut moves = vec![0.0; s.len()];
         for line in lines {
-            let curve = fit.curve(line, &[line[0], line[line.len() - 1]])?.curve;
+            let curve = fit.curve(line, &values(line, met))?.curve;
             for (i, step) in moves.iter_mut().enumerate() {
                 let [p, d, _] = curve.derivatives(s[i]);
                 *step += (line[i] - p).dot(d) / d.length_squared() / lines.len() as f64;
@@ -86,16 +89,18 @@ pub(super) fn refined(
     degree: usize,
     parameters: &[f64],
     lines: &[Vec<DVec3>],
+    met: &[usize],
     tolerance: f64,
 ) -> Result<Knots, NurbsError> {
     let (first, last) = (parameters[0], parameters[parameters.len() - 1]);
-    let mut breaks: Vec<f64> = (0..=START).map(|k| first + (last - first) * k as f64 / START as f64).collect();
+    let mut breaks: Vec<f64> =
+        (0..=START).map(|k| first + (last - first) * k as f64 / START as f64).collect();
     loop {
         let knots = Knots::clamped(degree, &breaks)?;
-        let fit = fit(&knots, parameters)?;
+        let fit = points_met(&knots, parameters, met)?.0;
         let mut worst = vec![0.0f64; breaks.len() - 1];
         for line in lines {
-            let curve = fit.curve(line, &[line[0], line[line.len() - 1]])?.curve;
+            let curve = fit.curve(line, &values(line, met))?.curve;
             for (i, &s) in parameters.iter().enumerate() {
                 let span = breaks[1..breaks.len() - 1].partition_point(|&b| b <= s);
                 worst[span] = worst[span].max(across(line, i, curve.point(s)).length());
@@ -118,6 +123,10 @@ pub(super) fn refined(
     }
 }
 
+fn values(line: &[DVec3], met: &[usize]) -> Vec<DVec3> {
+    met.iter().map(|&i| line[i]).collect()
+}
+
 /// The distance vector of `point` from datum `i` of a line, without the part along the line: that does not change the
 /// shape.
 fn across(line: &[DVec3], i: usize, point: DVec3) -> DVec3 {
@@ -125,19 +134,20 @@ fn across(line: &[DVec3], i: usize, point: DVec3) -> DVec3 {
     (point - line[i]).reject_from(along)
 }
 
-fn fit(knots: &Knots, parameters: &[f64]) -> Result<LeastSquares, NurbsError> {
-    let (start, end) = knots.domain();
-    let ends = [Constraint::derivative(knots, start, 0)?, Constraint::derivative(knots, end, 0)?];
-    LeastSquares::new(knots.clone(), parameters, None, &ends, None)
-}
-
 /// Sum of squared distances across the lines.
-fn left_over(knots: &Knots, parameters: &[f64], lines: &[Vec<DVec3>]) -> Result<f64, NurbsError> {
-    let fit = fit(knots, parameters)?;
+fn left_over(
+    knots: &Knots,
+    parameters: &[f64],
+    lines: &[Vec<DVec3>],
+    met: &[usize],
+) -> Result<f64, NurbsError> {
+    let fit = points_met(knots, parameters, met)?.0;
     let mut sum = 0.0;
     for line in lines {
-        let curve: Curve<DVec3> = fit.curve(line, &[line[0], line[line.len() - 1]])?.curve;
-        sum += (0..line.len()).map(|i| across(line, i, curve.point(parameters[i])).length_squared()).sum::<f64>();
+        let curve: Curve<DVec3> = fit.curve(line, &values(line, met))?.curve;
+        sum += (0..line.len())
+            .map(|i| across(line, i, curve.point(parameters[i])).length_squared())
+            .sum::<f64>();
     }
     Ok(sum)
 }

@@ -20,6 +20,8 @@ pub(crate) struct MedialSurface {
     pub(crate) normals: Surface<DVec3>,
     /// Greatest distance to the streamlines at equal parameters, seen between the data, mm.
     pub(crate) residual: f64,
+    /// Greatest angle between streamlines and surface at leading and trailing edge, seen between the data, radians.
+    pub(crate) angle_residual: f64,
     /// Greatest distance of n from the unit normal of the surface, seen between the data.
     pub(crate) normal_residual: f64,
 }
@@ -43,10 +45,7 @@ pub(crate) struct Streamlines {
 
 impl Streamlines {
     /// Draws them; `streamline` draws the one of v.
-    pub(crate) fn new<E>(
-        knots: Knots,
-        streamline: impl Fn(f64) -> Result<Streamline, E>,
-    ) -> Result<Self, E> {
+    pub(crate) fn new<E>(knots: Knots, streamline: impl Fn(f64) -> Result<Streamline, E>) -> Result<Self, E> {
         let v = stations(&knots);
         let lines = v.iter().map(|&v| streamline(v)).collect::<Result<_, _>>()?;
         let between = |j: usize| 0.5 * (v[j] + v[j + 1]);
@@ -83,8 +82,9 @@ impl MedialSurface {
         let (fit_v, values_v) = ends_met(&streamlines.knots, vs)?;
         let surface = with_equal_first_rows(&fit_u.surface(&fit_v, &points, &values_u, &values_v)?)?;
         let residual = residual(&surface, &streamlines.checks);
+        let angle_residual = angle_residual(&surface, &streamlines.checks);
         let (normals, normal_residual) = normals(&surface, &us, vs)?;
-        Ok(Self { surface, normals, residual, normal_residual })
+        Ok(Self { surface, normals, residual, angle_residual, normal_residual })
     }
 }
 
@@ -101,19 +101,29 @@ fn column(streamline: &Streamline, us: &[f64]) -> Vec<DVec3> {
 pub(super) fn stations(knots: &Knots) -> Vec<f64> {
     let each = knots.degree() + 3;
     let breaks = knots.breaks();
-    let spans = breaks.windows(2).flat_map(|w| (0..each).map(|k| w[0] + (w[1] - w[0]) * k as f64 / each as f64));
+    let spans =
+        breaks.windows(2).flat_map(|w| (0..each).map(|k| w[0] + (w[1] - w[0]) * k as f64 / each as f64));
     spans.chain(breaks.last().copied()).collect()
+}
+
+/// A fit that meets the data of these indices, and what its constraints equal.
+pub(super) fn points_met(
+    knots: &Knots,
+    parameters: &[f64],
+    met: &[usize],
+) -> Result<(LeastSquares, Vec<ConstraintValue>), NurbsError> {
+    let constraint = |i: &usize| Constraint::derivative(knots, parameters[*i], 0);
+    let constraints = met.iter().map(constraint).collect::<Result<Vec<_>, _>>()?;
+    let fit = LeastSquares::new(knots.clone(), parameters, None, &constraints, None)?;
+    Ok((fit, met.iter().map(|&i| ConstraintValue::Data(i)).collect()))
 }
 
 /// A fit that meets the first and the last datum.
 pub(super) fn ends_met(
     knots: &Knots,
     parameters: &[f64],
-) -> Result<(LeastSquares, [ConstraintValue; 2]), NurbsError> {
-    let (start, end) = knots.domain();
-    let ends = [Constraint::derivative(knots, start, 0)?, Constraint::derivative(knots, end, 0)?];
-    let fit = LeastSquares::new(knots.clone(), parameters, None, &ends, None)?;
-    Ok((fit, [ConstraintValue::Data(0), ConstraintValue::Data(parameters.len() - 1)]))
+) -> Result<(LeastSquares, Vec<ConstraintValue>), NurbsError> {
+    points_met(knots, parameters, &[0, parameters.len() - 1])
 }
 
 /// The surface with its second row of control points put equal to the first, which it is but for rounding.
@@ -153,6 +163,19 @@ fn residual(surface: &Surface<DVec3>, checks: &[(f64, Streamline)]) -> f64 {
         for i in 0..=200 {
             let u = f64::from(i) / 200.0;
             worst = worst.max(surface.point(u, *v).distance(line.at(line.at_fraction(pace(u))).0));
+        }
+    }
+    worst
+}
+
+fn angle_residual(surface: &Surface<DVec3>, checks: &[(f64, Streamline)]) -> f64 {
+    let mut worst: f64 = 0.0;
+    for (v, line) in checks {
+        // The first derivative is zero at the leading edge: the second one has the direction.
+        let ends = [(surface.derivatives(0.0, *v).uu, 0.0), (surface.derivatives(1.0, *v).u, 1.0)];
+        for (along, u) in ends {
+            let asked = line.at(u).1.normalize();
+            worst = worst.max(along.normalize().cross(asked).length());
         }
     }
     worst

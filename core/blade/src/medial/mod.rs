@@ -20,6 +20,9 @@ mod skin;
 mod streamline;
 mod trace;
 
+#[cfg(test)]
+mod tests;
+
 pub(crate) use medial_surface::{MedialSurface, Streamlines, unit_normal};
 pub(crate) use pace::Pace;
 pub(crate) use profile::{Profile, ProfileFlaw};

@@ -60,7 +60,8 @@ impl Profile {
         // Powers of t.
         let y = [0.0, 0.2969, -0.1260, 0.0, -0.3516, 0.0, 0.2843, 0.0, -last].map(|c| 5.0 * c);
         let x = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let mut points: Vec<DVec2> = (0..=8).map(|k| DVec2::new(bernstein(&x, k), bernstein(&y, k))).collect();
+        let mut points: Vec<DVec2> =
+            (0..=8).map(|k| DVec2::new(bernstein(&x, k), bernstein(&y, k))).collect();
         // What the tail's coefficients leave of zero.
         points[8] = DVec2::new(1.0, if closed { 0.0 } else { points[8].y });
         Ok(Self { curve: Curve::bezier(points)? })

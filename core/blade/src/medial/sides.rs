@@ -45,10 +45,8 @@ impl Sides {
         let (u, pace) = side.pace.with_slope(t);
         let [p, slope, _] = side.profile.at(t);
         let (scale, rise) = side.scale.with_slope(v);
-        let (m, n) = (
-            self.medial.surface.first_derivatives(u, v),
-            self.medial.normals.first_derivatives(u, v),
-        );
+        let (m, n) =
+            (self.medial.surface.first_derivatives(u, v), self.medial.normals.first_derivatives(u, v));
         let (lift, sign) = (SIGN[k] * scale * p.y, SIGN[k]);
         let along = m.1 * pace + n.1 * (pace * lift) + n.0 * (sign * scale * slope.y);
         let up = m.2 + n.2 * lift + n.0 * (sign * rise * p.y);

@@ -2,7 +2,7 @@
 
 use super::deviation::Deviation;
 use super::knots;
-use super::medial_surface::ends_met;
+use super::medial_surface::{ends_met, points_met};
 use super::sides::Sides;
 use coolinggen_nurbs::{Knots, NurbsError, Surface};
 use glam::DVec3;
@@ -62,12 +62,12 @@ impl Skin {
         if size.optimised {
             let lines = data.columns();
             for _ in 0..CORRECTIONS {
-                knots_u = knots::optimised(knots_u, &places.s, &lines)?;
-                places.s = knots::corrected(&knots_u, &places.s, &lines)?;
+                knots_u = knots::optimised(knots_u, &places.s, &lines, &places.met())?;
+                places.s = knots::corrected(&knots_u, &places.s, &lines, &places.met())?;
             }
-            knots_v = knots::optimised(knots_v, &data.v, &data.rows())?;
+            knots_v = knots::optimised(knots_v, &data.v, &data.rows(), &data.ends())?;
         }
-        let surface = data.fit(&knots_u, &knots_v, &places.s)?;
+        let surface = data.fit(&knots_u, &knots_v, &places)?;
         Ok(Self { surface, first, places })
     }
 
@@ -83,9 +83,9 @@ impl Skin {
         let data = Data::new(sides, first, &places);
         // Both directions add to the distance.
         let share = 0.4 * tolerance;
-        let knots_u = knots::refined(degree[0], &places.s, &data.columns(), share)?;
-        let knots_v = knots::refined(degree[1], &data.v, &data.rows(), share)?;
-        let surface = data.fit(&knots_u, &knots_v, &places.s)?;
+        let knots_u = knots::refined(degree[0], &places.s, &data.columns(), &places.met(), share)?;
+        let knots_v = knots::refined(degree[1], &data.v, &data.rows(), &data.ends(), share)?;
+        let surface = data.fit(&knots_u, &knots_v, &places)?;
         Ok(Self { surface, first, places })
     }
 
@@ -120,6 +120,11 @@ impl Places {
             if t > 0.0 { nose + (1.0 - nose) * along(1, t) } else { nose * (1.0 - along(0, -t)) }
         });
         Self { count, s: s.collect() }
+    }
+
+    /// Indices of the data that are met: trailing edge, leading edge, trailing edge.
+    fn met(&self) -> [usize; 3] {
+        [0, self.count, 2 * self.count]
     }
 
     /// s at `t` of the side run through first or second, by interpolation.
@@ -164,8 +169,13 @@ impl Data {
         self.points.iter().step_by(step).cloned().collect()
     }
 
-    fn fit(&self, knots_u: &Knots, knots_v: &Knots, s: &[f64]) -> Result<Surface<DVec3>, NurbsError> {
-        let (fit_u, values_u) = ends_met(knots_u, s)?;
+    fn ends(&self) -> [usize; 2] {
+        [0, self.v.len() - 1]
+    }
+
+    /// The best surface that meets both trailing edges and the leading edge.
+    fn fit(&self, knots_u: &Knots, knots_v: &Knots, places: &Places) -> Result<Surface<DVec3>, NurbsError> {
+        let (fit_u, values_u) = points_met(knots_u, &places.s, &places.met())?;
         let (fit_v, values_v) = ends_met(knots_v, &self.v)?;
         let points: Vec<DVec3> = self.points.iter().flatten().copied().collect();
         fit_u.surface(&fit_v, &points, &values_u, &values_v)

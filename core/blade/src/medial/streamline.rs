@@ -80,7 +80,11 @@ impl Streamline {
 
     /// u where `fraction` of the arc length is behind.
     pub(crate) fn at_fraction(&self, fraction: f64) -> f64 {
-        if fraction >= 1.0 { 1.0 } else { self.length.backward(fraction * self.length.total()).clamp(0.0, 1.0) }
+        if fraction >= 1.0 {
+            1.0
+        } else {
+            self.length.backward(fraction * self.length.total()).clamp(0.0, 1.0)
+        }
     }
 
     /// The stream surface it lies on.

@@ -31,7 +31,9 @@ fn error(design: &Value, degree: usize, counts: [usize; 2], knots: &str) -> Resu
 fn main() -> Result<(), String> {
     let text = include_str!("../../../../samples/francis.json");
     let design: Value = serde_json::from_str(text).map_err(|e| e.to_string())?;
-    println!("| control points | paper, uniform | paper, non-uniform | degree 2, uniform | degree 2, optimised | degree 3, uniform | degree 3, optimised |");
+    println!(
+        "| control points | paper, uniform | paper, non-uniform | degree 2, uniform | degree 2, optimised | degree 3, uniform | degree 3, optimised |"
+    );
     println!("|---|---|---|---|---|---|---|");
     for (counts, paper) in TURBINE {
         print!("| {} x {} | {} | {} |", counts[0], counts[1], paper[0], paper[1]);

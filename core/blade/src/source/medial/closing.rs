@@ -1,6 +1,6 @@
 //! Trailing edges: what joins the last line of one side to the first of the other.
 
-use coolinggen_nurbs::{Constraint, LeastSquares, NurbsError, ParametricSurface, Surface, Knots};
+use coolinggen_nurbs::{Constraint, Knots, LeastSquares, NurbsError, ParametricSurface, Surface};
 use glam::DVec3;
 
 /// The skin with its two borders in u put on one line, which they are but for rounding.
@@ -32,15 +32,20 @@ pub(super) fn rounded(skin: &Surface<DVec3>) -> Result<Surface<DVec3>, NurbsErro
     let lines: Vec<f64> = {
         let breaks = knots_v.breaks();
         let each = 2 * (knots_v.degree() + 1);
-        let inner = breaks.windows(2).flat_map(|w| (0..each).map(move |k| w[0] + (w[1] - w[0]) * k as f64 / each as f64));
+        let inner = breaks
+            .windows(2)
+            .flat_map(|w| (0..each).map(move |k| w[0] + (w[1] - w[0]) * k as f64 / each as f64));
         inner.chain(breaks.last().copied()).collect()
     };
     let ((start, end), (low, high)) = skin.domain();
-    let sections: Vec<[DVec3; 5]> = lines.iter().map(|&v| {
-        let (a, out_a, _) = skin.first_derivatives(end, v);
-        let (b, into_b, _) = skin.first_derivatives(start, v);
-        arcs(a, out_a.normalize(), b, -into_b.normalize())
-    }).collect();
+    let sections: Vec<[DVec3; 5]> = lines
+        .iter()
+        .map(|&v| {
+            let (a, out_a, _) = skin.first_derivatives(end, v);
+            let (b, into_b, _) = skin.first_derivatives(start, v);
+            arcs(a, out_a.normalize(), b, -into_b.normalize())
+        })
+        .collect();
     let ends = [Constraint::derivative(knots_v, low, 0)?, Constraint::derivative(knots_v, high, 0)?];
     let fit = LeastSquares::new(knots_v.clone(), &lines, None, &ends, None)?;
     let columns = skin.counts().1;

@@ -20,11 +20,7 @@ pub(super) fn law(
     if let Some(value) = [least, greatest].into_iter().find(|v| !(min..=max).contains(v)) {
         let message = format!("{name} must lie between {min} and {max} {unit}, but is {value}");
         faults.push(
-            Fault::new(pointer, "out_of_range", message.trim_end())
-                .value(value)
-                .min(min)
-                .max(max)
-                .unit(unit),
+            Fault::new(pointer, "out_of_range", message.trim_end()).value(value).min(min).max(max).unit(unit),
         );
         return None;
     }

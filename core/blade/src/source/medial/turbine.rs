@@ -173,9 +173,10 @@ struct Plan<'a> {
 
 /// How close the medial surface is brought to its streamlines, in parts of their length, and the spans it is tried
 /// with.
-const MEDIAL: f64 = 1e-6;
-const SPANS_AROUND: [usize; 2] = [24, 64];
-const SPANS_ALONG: [usize; 2] = [6, 24];
+const MEDIAL: f64 = 2e-6;
+/// How close its directions at the edges are brought to the angles asked, radians.
+const ANGLE: f64 = 1e-8;
+const SPANS: [[usize; 2]; 3] = [[32, 10], [64, 10], [64, 32]];
 /// The residual of Eq. 19 that is good enough.
 const PACE: f64 = 1e-5;
 
@@ -198,10 +199,13 @@ impl TurbineSource {
         let trailing = trace(&self.trailing_edge, "trailing_edge", annular, &mut faults);
         let turn = (-3600.0, 3600.0);
         let mut law = |spec, name, limits, unit| read::law(spec, name, limits, unit, &mut faults);
-        let phi = [law(&self.phi0_deg, "phi0_deg", turn, "deg"), law(&self.phi1_deg, "phi1_deg", turn, "deg")];
+        let phi =
+            [law(&self.phi0_deg, "phi0_deg", turn, "deg"), law(&self.phi1_deg, "phi1_deg", turn, "deg")];
         let angle = (2.0, 178.0);
-        let beta =
-            [law(&self.beta0_deg, "beta0_deg", angle, "deg"), law(&self.beta1_deg, "beta1_deg", angle, "deg")];
+        let beta = [
+            law(&self.beta0_deg, "beta0_deg", angle, "deg"),
+            law(&self.beta1_deg, "beta1_deg", angle, "deg"),
+        ];
         let part = (0.02, 1.0);
         let zeta = [law(&self.zeta0, "zeta0", part, ""), law(&self.zeta1, "zeta1", part, "")];
         let thick = (1e-3, 1e4);
@@ -310,7 +314,8 @@ fn in_order(leading: &Trace, trailing: &Trace, space: &Annular, faults: &mut Vec
         let v = f64::from(k) / 20.0;
         let (Ok(a), Ok(b)) = (leading.station(space, v), trailing.station(space, v)) else { continue };
         if !(b > a + 1e-3) {
-            let message = format!("at span fraction {v:.2} the trailing edge does not lie behind the leading edge");
+            let message =
+                format!("at span fraction {v:.2} the trailing edge does not lie behind the leading edge");
             faults.push(
                 Fault::new("/trailing_edge", "order", message).hint("contours and traces run with the flow"),
             );
@@ -350,21 +355,23 @@ impl Plan<'_> {
     fn medial(&self) -> Result<MedialSurface, Vec<Fault>> {
         let length = self.streamline(0.5)?.length();
         self.wrapped()?;
-        let mut medial = None;
-        for along in SPANS_ALONG {
-            let knots = self.knots_v(along).map_err(failed)?;
-            let streamlines = Streamlines::new(knots, |v| self.streamline(v))?;
-            for around in SPANS_AROUND {
-                let knots = Knots::clamped(5, &even(around)).map_err(failed)?;
-                let made = MedialSurface::new(&knots, &streamlines).map_err(failed)?;
-                let done = made.residual <= MEDIAL * length && made.normal_residual <= 1e2 * MEDIAL;
-                medial = Some(made);
-                if done {
-                    return medial.ok_or_else(Vec::new);
-                }
+        let mut coarse: Option<(usize, Streamlines)> = None;
+        for [around, along] in SPANS {
+            let streamlines = match coarse.take() {
+                Some((spans, lines)) if spans == along => lines,
+                _ => Streamlines::new(self.knots_v(along).map_err(failed)?, |v| self.streamline(v))?,
+            };
+            let knots = Knots::clamped(5, &even(around)).map_err(failed)?;
+            let medial = MedialSurface::new(&knots, &streamlines).map_err(failed)?;
+            let close = medial.residual <= MEDIAL * length
+                && medial.normal_residual <= 1e2 * MEDIAL
+                && medial.angle_residual <= ANGLE;
+            if close || [around, along] == SPANS[SPANS.len() - 1] {
+                return Ok(medial);
             }
+            coarse = Some((along, streamlines));
         }
-        medial.ok_or_else(Vec::new)
+        Err(failed(NurbsError::NotFound { what: "spans for the medial surface" }))
     }
 
     /// Quintic knots over the span, with room for the kinks in derivatives that laws and traces have at their knots.

@@ -50,6 +50,10 @@ pub(super) fn blade(
     let (count_u, count_v) = skin.surface.counts();
     let notes = vec![
         format!("medial surface within {:.1e} mm of its streamlines", sides.medial.residual),
+        format!(
+            "blade angles of the medial surface within {:.1e} deg",
+            sides.medial.angle_residual.to_degrees()
+        ),
         format!("normals within {:.1e}", sides.medial.normal_residual),
         format!("pace along the profile within {:.1e} of its mean", sides.sides[0].pace.residual),
         format!(
