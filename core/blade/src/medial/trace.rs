@@ -2,7 +2,7 @@
 
 use crate::error::BladeError;
 use crate::stream::Annular;
-use coolinggen_nurbs::{Curve, ParametricCurve};
+use coolinggen_nurbs::{Curve, ParametricCurve, ParametricSurface};
 use glam::DVec2;
 
 /// The trace of an edge: where it crosses each streamline.
@@ -78,11 +78,32 @@ impl Trace {
         Ok(s)
     }
 
-    /// Span fractions between the ends at which the trace is less smooth than elsewhere: its knots.
+    /// Span fractions between the ends at which the streamlines' directions at the trace are less smooth than
+    /// elsewhere: at its knots, and where it crosses knots of the net of streamlines.
     pub(crate) fn breaks(&self, space: &Annular) -> Vec<f64> {
-        let at = |t: f64| space.coordinates(self.at(t).0).map(|(_, v)| v);
-        let all = self.curve.breaks().into_iter().filter_map(|t| at(t).ok());
-        all.filter(|v| *v > SHORT && *v < 1.0 - SHORT).collect()
+        let at = |t: f64| space.coordinates(self.at(t).0);
+        let mut all: Vec<f64> = self.curve.breaks().into_iter().filter_map(|t| Some(at(t).ok()?.1)).collect();
+        let stations = space.net().breaks_u();
+        let t = |i: u32| f64::from(i) / f64::from(CHECKS);
+        let sampled: Vec<Option<f64>> = (0..=CHECKS).map(|i| at(t(i)).ok().map(|(s, _)| s)).collect();
+        for knot in stations {
+            for i in 0..CHECKS {
+                let pair = (sampled[i as usize], sampled[i as usize + 1]);
+                let (Some(a), Some(b)) = pair else { continue };
+                if (a < knot) == (b < knot) {
+                    continue;
+                }
+                let (mut low, mut high) = (t(i), t(i + 1));
+                for _ in 0..50 {
+                    let middle = 0.5 * (low + high);
+                    let before = at(middle).is_ok_and(|(s, _)| (s < knot) == (a < knot));
+                    *(if before { &mut low } else { &mut high }) = middle;
+                }
+                all.extend(at(low).map(|(_, v)| v));
+            }
+        }
+        all.retain(|v| *v > SHORT && *v < 1.0 - SHORT);
+        all
     }
 
     fn at(&self, t: f64) -> (DVec2, DVec2) {

@@ -176,7 +176,7 @@ struct Plan<'a> {
 const MEDIAL: f64 = 2e-6;
 /// How close its directions at the edges are brought to the angles asked, radians.
 const ANGLE: f64 = 1e-8;
-const SPANS: [[usize; 2]; 3] = [[32, 10], [64, 10], [64, 32]];
+const SPANS: [[usize; 2]; 3] = [[32, 14], [64, 14], [64, 32]];
 /// The residual of Eq. 19 that is good enough.
 const PACE: f64 = 1e-5;
 
@@ -381,14 +381,14 @@ impl Plan<'_> {
         breaks.extend(self.traces.iter().flat_map(|t| t.breaks(self.space)));
         breaks.extend([0.0, 1.0]);
         breaks.sort_by(f64::total_cmp);
-        breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+        breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
         let mut values = vec![0.0; 6];
         for pair in breaks.windows(2) {
             let parts = (spans as f64 * (pair[1] - pair[0])).ceil().max(1.0) as usize;
             let size = (pair[1] - pair[0]) / parts as f64;
             values.extend((1..parts).map(|k| pair[0] + size * k as f64));
-            // The pieces of laws and of interpolated traces join with two derivatives.
-            values.extend(std::iter::repeat_n(pair[1], if pair[1] < 1.0 { 3 } else { 6 }));
+            // Laws, traces and contours are twice differentiable at their knots, directions of contours once.
+            values.extend(std::iter::repeat_n(pair[1], if pair[1] < 1.0 { 4 } else { 6 }));
         }
         Knots::new(5, values)
     }
