@@ -56,7 +56,8 @@ pub struct FitReport {
     pub notes: Vec<String>,
 }
 
-/// A blade: a surface `B(u, w)`, closed in u over [0, 1], which reaches about 6 % of the span past hub and shroud.
+/// A blade: a surface `B(u, w)`, closed in u over [0, 1], which reaches about 6 % of the span past hub and shroud, or ends
+/// in a point, its tip ([`BladeSurface::tip`]).
 ///
 /// w is close to the span fraction but not the same: [`Blade::crossing`] finds where a line of constant u meets a
 /// stream surface. u runs around in the order leading edge, suction side, trailing edge, pressure side and is 0 at the

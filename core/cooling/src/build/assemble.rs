@@ -4,12 +4,13 @@ use super::cap::{Ring, add_cap, points_up};
 use super::clearance;
 use super::error::BuildError;
 use super::passages::{Passage, add_chambers};
+use super::pointed::add_pointed_tube;
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section};
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
 use crate::plan::Plan;
-use coolinggen_blade::{Blade, StreamSpace, StreamSurface};
+use coolinggen_blade::{Blade, Fault, StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
 
 /// A built design.
@@ -21,8 +22,8 @@ pub struct CooledBlade {
     pub outer_faces: Vec<FaceId>,
     /// Faces between metal and coolant.
     pub passage_faces: Vec<FaceId>,
-    /// Hub and tip face of the metal.
-    pub end_faces: [FaceId; 2],
+    /// Hub and tip face of the metal; the hub's alone where the blade ends in a point.
+    pub end_faces: Vec<FaceId>,
     /// The radial holes.
     pub radial_holes: Vec<RadialHoleGeometry>,
 }
@@ -38,6 +39,10 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let mut passages = Vec::new();
     let mut radial_holes = Vec::new();
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
+        if blade.surface.tip().is_some() {
+            let message = "this blade ends in a point: there is no tip that passages could open at";
+            return Err(BuildError::Refused(vec![Fault::new("/cooling", "pointed_tip", message)]));
+        }
         let grid = Grid::new(blade)?;
         let polygons;
         (passages, polygons) = add_chambers(&mut model, blade, space, &grid, plan)?;
@@ -87,7 +92,10 @@ fn add_blade(model: &mut Model, blade: &Blade, ends: [&StreamSurface; 2]) -> Res
             });
         }
     }
-    add_tube(model, patches, ends)
+    match blade.surface.tip() {
+        Some(tip) => add_pointed_tube(model, patches, ends[0], tip),
+        None => add_tube(model, patches, ends),
+    }
 }
 
 /// Caps and solids.
@@ -98,7 +106,7 @@ fn add_solids(
     ends: &[StreamSurface; 2],
     outer: &CutTube,
     passages: &[Passage],
-) -> Result<[FaceId; 2], BuildError> {
+) -> Result<Vec<FaceId>, BuildError> {
     let mut metal = Shell::default();
     let mut voids = Vec::new();
     let mut coolants = Vec::new();
@@ -149,13 +157,16 @@ fn add_solids(
             expected_genus: 0,
         });
     }
-    let mut end_faces = [FaceId(0); 2];
+    let mut end_faces = Vec::new();
     for (side, name) in [(0, "blade/hub"), (1, "blade/tip")] {
+        if outer.rings[side].edges.is_empty() {
+            continue;
+        }
         let stream = &ends[side];
         let cap = add_cap(model, name.to_owned(), style::end(), stream, &outer.rings[side], &openings[side])?;
         let forward = points_up(model, cap, stream) == (side == 1);
         metal.faces.push(FaceUse { face: cap, forward });
-        end_faces[side] = cap;
+        end_faces.push(cap);
     }
     let mut shells = vec![metal];
     shells.extend(voids);

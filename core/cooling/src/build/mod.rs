@@ -7,6 +7,7 @@ mod chambers;
 mod clearance;
 mod error;
 mod passages;
+mod pointed;
 mod probe;
 mod radial_holes;
 mod sections;
