@@ -20,7 +20,10 @@ pub use error::BladeError;
 pub use fault::{Fault, Pointer};
 pub use law::{Law, LawSpec};
 pub use source::closed::EdgesSpec;
-pub use source::medial::{ClosingSpec, KnotsSpec, ProfileSpec, SideSpec, SkinSpec, TurbineSource};
+pub use source::medial::{
+    ClosingSpec, Hand, KnotsSpec, MeanLine, ProfileSpec, PropellerRow, PropellerTableSource, SideSpec,
+    SkinSpec, ThicknessForm, TurbineSource,
+};
 pub use source::pritchard::{PritchardSource, Stacking};
 pub use source::sections::{Extreme, SectionSpec, SectionsSource};
 pub use source::step::StepSource;

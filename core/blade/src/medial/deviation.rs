@@ -1,6 +1,6 @@
 //! How far a B-spline surface is from the sides it stands for (Eq. 28).
 
-use super::sides::Sides;
+use super::sides::TwoSided;
 use coolinggen_nurbs::{NurbsError, Surface, project_on_surface};
 use glam::DVec3;
 
@@ -18,7 +18,7 @@ impl Deviation {
     /// about the s of the closest point.
     pub(crate) fn of(
         surface: &Surface<DVec3>,
-        sides: &Sides,
+        sides: &dyn TwoSided,
         place: impl Fn(usize, f64) -> f64,
         around: usize,
         along: usize,

@@ -26,7 +26,7 @@ mod tests;
 pub(crate) use medial_surface::{MedialSurface, Streamlines, unit_normal};
 pub(crate) use pace::Pace;
 pub(crate) use profile::{Profile, ProfileFlaw};
-pub(crate) use sides::{Side, Sides};
+pub(crate) use sides::{Side, Sides, Tip, TwoSided};
 pub(crate) use skin::{Skin, SkinSize};
 pub(crate) use streamline::{Angles, Streamline};
 pub(crate) use trace::{Trace, TraceFlaw};

@@ -86,14 +86,22 @@ impl Profile {
         self.curve.derivatives(t)
     }
 
+    /// t at which the leading edge ends: where the profile has turned by 1.1 radians from its tip, for a scale that is
+    /// `slenderness` of the streamline's length.
+    pub(crate) fn nose_end(&self, slenderness: f64) -> f64 {
+        const TURN: f64 = 1.1;
+        let turned = |t: f64| {
+            let slope = self.at(t)[1];
+            slope.x.atan2(slenderness * slope.y)
+        };
+        let steps = 400;
+        let t = (1..steps).map(|i| f64::from(i) / f64::from(steps)).find(|&t| turned(t) >= TURN);
+        t.unwrap_or(0.1).clamp(0.02, 0.5)
+    }
+
     /// y at the trailing edge.
     pub(crate) fn tail(&self) -> f64 {
         self.curve.points()[self.curve.points().len() - 1].y
-    }
-
-    /// The curve.
-    pub(crate) fn curve(&self) -> &Curve<DVec2> {
-        &self.curve
     }
 }
 

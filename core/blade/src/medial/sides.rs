@@ -7,6 +7,30 @@ use crate::law::Law;
 use coolinggen_nurbs::ParametricSurface;
 use glam::DVec3;
 
+/// Two sides of a blade as functions of t in [0, 1], from the leading to the trailing edge, and v in [0, 1].
+pub(crate) trait TwoSided {
+    /// The point of side `k` (0 or 1) at (t, v).
+    fn point(&self, k: usize, t: f64, v: f64) -> DVec3;
+
+    /// How fast side `k` leaves the leading edge, d y'(0) half way up, and y''(0) / (2 y'(0)).
+    fn nose(&self, k: usize) -> (f64, f64);
+
+    /// The point that all lines of constant t end in at v = 1, with the normal of the plane that they leave it in;
+    /// none for a blade whose tip is open.
+    fn tip(&self) -> Option<Tip> {
+        None
+    }
+}
+
+/// The tip of a blade that ends in a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tip {
+    /// The point.
+    pub(crate) point: DVec3,
+    /// Unit normal of the tangent plane there.
+    pub(crate) normal: DVec3,
+}
+
 /// What stands on one side of the medial surface.
 #[derive(Clone, Debug)]
 pub(crate) struct Side {
@@ -30,15 +54,21 @@ pub(crate) struct Sides {
 /// Which way each side lies from the medial surface.
 const SIGN: [f64; 2] = [1.0, -1.0];
 
-impl Sides {
-    /// The point of side `k` at (t, v).
-    pub(crate) fn point(&self, k: usize, t: f64, v: f64) -> DVec3 {
+impl TwoSided for Sides {
+    fn point(&self, k: usize, t: f64, v: f64) -> DVec3 {
         let side = &self.sides[k];
         let u = side.pace.at(t);
         let lift = SIGN[k] * side.scale.at(v) * side.profile.at(t)[0].y;
         self.medial.surface.point(u, v) + self.medial.normals.point(u, v) * lift
     }
 
+    fn nose(&self, k: usize) -> (f64, f64) {
+        let [_, slope, change] = self.sides[k].profile.at(0.0);
+        (self.sides[k].scale.at(0.5) * slope.y, 0.5 * change.y / slope.y)
+    }
+}
+
+impl Sides {
     /// Point and derivatives in t and v of side `k` at (t, v).
     pub(crate) fn derivatives(&self, k: usize, t: f64, v: f64) -> (DVec3, DVec3, DVec3) {
         let side = &self.sides[k];

@@ -3,8 +3,8 @@
 use super::deviation::Deviation;
 use super::knots;
 use super::medial_surface::{ends_met, points_met};
-use super::sides::Sides;
-use coolinggen_nurbs::{Knots, NurbsError, Surface};
+use super::sides::{Tip, TwoSided};
+use coolinggen_nurbs::{Constraint, ConstraintValue, Knots, LeastSquares, NurbsError, Surface};
 use glam::DVec3;
 
 /// What a skin is made of.
@@ -25,7 +25,7 @@ pub(crate) struct SkinSize {
 pub(crate) struct Skin {
     /// The surface.
     pub(crate) surface: Surface<DVec3>,
-    /// The side that is run through first, backwards: its index in [`Sides`].
+    /// The side that is run through first, backwards: its index in [`TwoSided`].
     pub(crate) first: usize,
     places: Places,
 }
@@ -48,14 +48,16 @@ const LEAST: usize = 120;
 const DENSITY: usize = 6;
 /// Rounds of putting knots and correcting parameters in turn.
 const CORRECTIONS: usize = 4;
-/// Data a side where a tolerance is to be kept.
-const FINE: usize = 400;
+/// Lines of constant v.
+const LINES: usize = 48;
+/// Data a side and lines where a tolerance is to be kept.
+const FINE: [usize; 2] = [300, 128];
 
 impl Skin {
     /// The skin of a size, beginning with side `first`.
-    pub(crate) fn new(sides: &Sides, first: usize, size: SkinSize) -> Result<Self, NurbsError> {
+    pub(crate) fn new(sides: &dyn TwoSided, first: usize, size: SkinSize) -> Result<Self, NurbsError> {
         let mut places = Places::new(sides, first, LEAST.max(DENSITY * size.counts[0]));
-        let data = Data::new(sides, first, &places);
+        let data = Data::new(sides, first, &places, LINES);
         let [p, q] = size.degree;
         let mut knots_u = Knots::uniform(p, size.counts[0])?;
         let mut knots_v = Knots::uniform(q, size.counts[1])?;
@@ -74,13 +76,13 @@ impl Skin {
     /// The skin beginning with side `first` that is about within `tolerance` (mm) of the sides, its knots inserted
     /// where they are missed.
     pub(crate) fn within(
-        sides: &Sides,
+        sides: &dyn TwoSided,
         first: usize,
         degree: [usize; 2],
         tolerance: f64,
     ) -> Result<Self, NurbsError> {
-        let places = Places::new(sides, first, FINE);
-        let data = Data::new(sides, first, &places);
+        let places = Places::new(sides, first, FINE[0]);
+        let data = Data::new(sides, first, &places, FINE[1]);
         // Both directions add to the distance.
         let share = 0.4 * tolerance;
         let knots_u = knots::refined(degree[0], &places.s, &data.columns(), &places.met(), share)?;
@@ -97,7 +99,7 @@ impl Skin {
     /// Eq. 28 on a grid of `around` points a side and `along` lines.
     pub(crate) fn deviation(
         &self,
-        sides: &Sides,
+        sides: &dyn TwoSided,
         around: usize,
         along: usize,
     ) -> Result<Deviation, NurbsError> {
@@ -106,13 +108,9 @@ impl Skin {
 }
 
 impl Places {
-    fn new(sides: &Sides, first: usize, count: usize) -> Self {
-        let side = |k: usize| &sides.sides[if k == 0 { first } else { 1 - first }];
-        let speed = [0, 1].map(|k| side(k).scale.at(0.5) * side(k).profile.at(0.0)[1].y);
-        let bend = [0, 1].map(|k| {
-            let [_, slope, change] = side(k).profile.at(0.0);
-            (0.5 * change.y / slope.y).clamp(-2.0, 2.0)
-        });
+    fn new(sides: &dyn TwoSided, first: usize, count: usize) -> Self {
+        let noses = [sides.nose(first), sides.nose(1 - first)];
+        let (speed, bend) = (noses.map(|n| n.0), noses.map(|n| n.1.clamp(-2.0, 2.0)));
         let nose = speed[0] / (speed[0] + speed[1]);
         let along = |k: usize, t: f64| t + bend[k] * (t * (1.0 - t)).powi(2);
         let s = (0..=2 * count).map(|i| {
@@ -136,7 +134,7 @@ impl Places {
 }
 
 /// Node `i` of the way round: backwards along the first side, then along the other.
-fn side_point(sides: &Sides, first: usize, count: usize, i: usize, v: f64) -> DVec3 {
+fn side_point(sides: &dyn TwoSided, first: usize, count: usize, i: usize, v: f64) -> DVec3 {
     let t = (i as f64 - count as f64) / count as f64;
     if t <= 0.0 { sides.point(first, -t, v) } else { sides.point(1 - first, t, v) }
 }
@@ -146,21 +144,23 @@ struct Data {
     v: Vec<f64>,
     /// `[around][along]`.
     points: Vec<Vec<DVec3>>,
+    tip: Option<Tip>,
 }
 
 impl Data {
-    fn new(sides: &Sides, first: usize, places: &Places) -> Self {
-        let lines = 48;
-        let v: Vec<f64> = (0..=lines).map(|j| f64::from(j) / f64::from(lines)).collect();
+    fn new(sides: &dyn TwoSided, first: usize, places: &Places, lines: usize) -> Self {
+        let v: Vec<f64> = (0..=lines).map(|j| j as f64 / lines as f64).collect();
         let row = |i: usize| v.iter().map(|&v| side_point(sides, first, places.count, i, v)).collect();
         let points = (0..=2 * places.count).map(row).collect();
-        Self { v, points }
+        Self { v, points, tip: sides.tip() }
     }
 
     /// Some lines of constant v.
     fn columns(&self) -> Vec<Vec<DVec3>> {
         let step = (self.v.len() - 1) / 6;
-        (0..self.v.len()).step_by(step).map(|j| self.points.iter().map(|row| row[j]).collect()).collect()
+        // A tip is no line.
+        let count = self.v.len() - usize::from(self.tip.is_some());
+        (0..count).step_by(step).map(|j| self.points.iter().map(|row| row[j]).collect()).collect()
     }
 
     /// Some lines of constant s.
@@ -173,11 +173,33 @@ impl Data {
         [0, self.v.len() - 1]
     }
 
-    /// The best surface that meets both trailing edges and the leading edge.
+    /// The best surface that meets both trailing edges and the leading edge, and a tip with its tangent plane.
     fn fit(&self, knots_u: &Knots, knots_v: &Knots, places: &Places) -> Result<Surface<DVec3>, NurbsError> {
         let (fit_u, values_u) = points_met(knots_u, &places.s, &places.met())?;
         let (fit_v, values_v) = ends_met(knots_v, &self.v)?;
         let points: Vec<DVec3> = self.points.iter().flatten().copied().collect();
-        fit_u.surface(&fit_v, &points, &values_u, &values_v)
+        let surface = fit_u.surface(&fit_v, &points, &values_u, &values_v)?;
+        let Some(Tip { point, normal }) = self.tip else { return Ok(surface) };
+        // Heights over the tangent plane are fitted again, with derivatives in v that are zero at the tip.
+        let ends = [0.0, 1.0].map(|v| Constraint::derivative(knots_v, v, 0));
+        let [start, end] = ends;
+        let constraints = [start?, end?, Constraint::derivative(knots_v, 1.0, 1)?];
+        let fit_v = LeastSquares::new(knots_v.clone(), &self.v, None, &constraints, None)?;
+        let values_v = [values_v[0], values_v[1], ConstraintValue::Zero];
+        let heights: Vec<f64> = points.iter().map(|p| normal.dot(*p - point)).collect();
+        let heights = fit_u.surface(&fit_v, &heights, &values_u, &values_v)?;
+        let columns = knots_v.control_count();
+        let mut index = 0;
+        let flat = surface.map(|p| {
+            let (j, height) = (index % columns, heights.points()[index]);
+            index += 1;
+            // What the constraints leave of zero is rounding.
+            match columns - j {
+                1 => point,
+                2 => *p - normal * normal.dot(*p - point),
+                _ => *p + normal * (height - normal.dot(*p - point)),
+            }
+        });
+        Ok(flat)
     }
 }

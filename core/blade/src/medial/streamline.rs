@@ -86,11 +86,6 @@ impl Streamline {
             self.length.backward(fraction * self.length.total()).clamp(0.0, 1.0)
         }
     }
-
-    /// The stream surface it lies on.
-    pub(crate) fn surface(&self) -> &StreamSurface {
-        &self.surface
-    }
 }
 
 /// Point and derivatives of a cubic Bezier curve.

@@ -70,6 +70,10 @@ pub(super) fn rounded(skin: &Surface<DVec3>) -> Result<Surface<DVec3>, NurbsErro
 fn arcs(a: DVec3, out: DVec3, b: DVec3, into: DVec3) -> [DVec3; 5] {
     let middle = 0.5 * (a + b);
     let half = 0.5 * a.distance(b);
+    if half == 0.0 {
+        // The tip of a blade that ends in a point.
+        return [a; 5];
+    }
     let across = (a - b) / (2.0 * half);
     let ahead = (out + into).reject_from(across).normalize();
     // Half the angle between the sides.

@@ -1,7 +1,12 @@
 //! Blades made with the medial method: what designs say of them.
 
+mod assembly;
 mod closing;
 mod read;
+mod spec;
+mod table;
 mod turbine;
 
-pub use turbine::{ClosingSpec, KnotsSpec, ProfileSpec, SideSpec, SkinSpec, TurbineSource};
+pub use spec::{ClosingSpec, KnotsSpec, ProfileSpec, SideSpec, SkinSpec};
+pub use table::{Hand, MeanLine, PropellerRow, PropellerTableSource, ThicknessForm};
+pub use turbine::TurbineSource;

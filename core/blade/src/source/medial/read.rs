@@ -1,6 +1,6 @@
 //! Reading what the medial sources have in common: laws within limits, profiles.
 
-use super::turbine::ProfileSpec;
+use super::spec::{ClosingSpec, ProfileSpec};
 use crate::fault::{Fault, Pointer};
 use crate::law::{Law, LawSpec};
 use crate::medial::{Profile, ProfileFlaw};
@@ -60,4 +60,19 @@ pub(super) fn profile(spec: &ProfileSpec, at: &Pointer, faults: &mut Vec<Fault>)
         }
     };
     Profile::bezier(&points).map_err(|flaw| faults.push(explain(flaw))).ok()
+}
+
+/// How the trailing edge is closed where the profiles of the sides end with y = `tails`.
+pub(super) fn closing(asked: Option<ClosingSpec>, tails: [f64; 2], faults: &mut Vec<Fault>) -> ClosingSpec {
+    let open = tails[0] + tails[1] > 0.0;
+    let closing = asked.unwrap_or(if open { ClosingSpec::Blunt } else { ClosingSpec::Sharp });
+    let message = match (closing, open) {
+        (ClosingSpec::Sharp, true) => "a sharp trailing edge needs a profile that ends with y = 0",
+        (ClosingSpec::Blunt | ClosingSpec::Rounded, false) => {
+            "a blunt or rounded trailing edge needs a profile that ends with y > 0"
+        }
+        _ => return closing,
+    };
+    faults.push(Fault::new("/closing", "closing", message).value(tails[0]));
+    closing
 }
