@@ -21,8 +21,8 @@ pub use fault::{Fault, Pointer};
 pub use law::{Law, LawSpec};
 pub use source::closed::EdgesSpec;
 pub use source::medial::{
-    ClosingSpec, Hand, KnotsSpec, MeanLine, ProfileSpec, PropellerRow, PropellerTableSource, SideSpec,
-    SkinSpec, ThicknessForm, TurbineSource,
+    ClosingSpec, Hand, KnotsSpec, MeanLine, ProfileSpec, PropellerRow, PropellerSource, PropellerTableSource,
+    SideSpec, SkinSpec, ThicknessForm, TurbineSource,
 };
 pub use source::pritchard::{PritchardSource, Stacking};
 pub use source::sections::{Extreme, SectionSpec, SectionsSource};

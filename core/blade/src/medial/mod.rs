@@ -10,7 +10,9 @@
 //! [`Pace`] u(t) makes its parameter run as the [`Profile`] does; [`Sides`] are the two sides as functions; [`Skin`]
 //! is one B-spline surface near both.
 
+mod cut_out;
 mod deviation;
+mod extended;
 mod knots;
 mod medial_surface;
 mod pace;
@@ -23,6 +25,8 @@ mod trace;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use cut_out::{CutOut, PointedSides};
+pub(crate) use extended::{Continued, extended};
 pub(crate) use medial_surface::{MedialSurface, Streamlines, unit_normal};
 pub(crate) use pace::Pace;
 pub(crate) use profile::{Profile, ProfileFlaw};

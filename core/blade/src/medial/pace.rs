@@ -1,7 +1,7 @@
 //! The reparameterization u(t) that lets the medial surface run as the profile does (section 3.2).
 
 use super::profile::Profile;
-use coolinggen_nurbs::{BandedLu, Curve, Knots, NurbsError, ParametricCurve, ParametricSurface, Surface};
+use coolinggen_nurbs::{BandedLu, Curve, Knots, NurbsError, ParametricCurve, ParametricSurface};
 use glam::DVec3;
 
 /// A B-spline function u(t) over [0, 1] with u(0) = 0, u(1) = 1, for which |d/dt m(u(t), v)| is close to lambda(v) x'(t)
@@ -27,13 +27,16 @@ impl Pace {
     /// until the residual is `tolerance` or knots stop helping. The paper takes `degree` 2; 3 keeps the sides twice
     /// differentiable.
     pub(crate) fn new(
-        medial: &Surface<DVec3>,
+        medial: &impl ParametricSurface<DVec3>,
         profile: &Profile,
         degree: usize,
         tolerance: f64,
     ) -> Result<Self, NurbsError> {
-        let lines: Vec<Line> =
-            (0..LINES).map(|j| Line::new(medial, f64::from(j) / f64::from(LINES - 1))).collect();
+        // The line at the end has no length where the surface ends in a point.
+        let ends_in_point = medial.point(0.0, 1.0).distance(medial.point(1.0, 1.0)) < 1e-9;
+        let last = if ends_in_point { 0.9 } else { 1.0 };
+        let v = |j: u32| last * f64::from(j) / f64::from(LINES - 1);
+        let lines: Vec<Line> = (0..LINES).map(|j| Line::new(medial, v(j))).collect();
         let knots = Knots::uniform(degree, degree + 1)?;
         let mut best = solved(Curve::new(knots.clone(), knots.greville())?, medial, profile, &lines)?;
         while best.residual > tolerance && best.curve.points().len() < MOST {
@@ -65,7 +68,12 @@ impl Pace {
     }
 
     /// Middles of the spans with the greater half of the sum of squares.
-    fn worst_spans(&self, medial: &Surface<DVec3>, profile: &Profile, lines: &[Line]) -> Vec<f64> {
+    fn worst_spans(
+        &self,
+        medial: &impl ParametricSurface<DVec3>,
+        profile: &Profile,
+        lines: &[Line],
+    ) -> Vec<f64> {
         let breaks = self.curve.breaks();
         let sums: Vec<f64> = breaks
             .windows(2)
@@ -90,7 +98,7 @@ struct Line {
 }
 
 impl Line {
-    fn new(medial: &Surface<DVec3>, v: f64) -> Self {
+    fn new(medial: &impl ParametricSurface<DVec3>, v: f64) -> Self {
         let breaks = medial.breaks_u();
         let steps = 24;
         let point = |w: &[f64], k: i32| {
@@ -112,7 +120,7 @@ impl Line {
     }
 
     /// `|m_1| u' / lambda - x'` at `t`.
-    fn miss(&self, medial: &Surface<DVec3>, profile: &Profile, u: &Curve<f64>, t: f64) -> f64 {
+    fn miss(&self, medial: &impl ParametricSurface<DVec3>, profile: &Profile, u: &Curve<f64>, t: f64) -> f64 {
         let [value, slope, _] = u.derivatives(t);
         medial.derivatives(value.clamp(0.0, 1.0), self.v).u.length() * slope / self.length
             - profile.at(t)[1].x
@@ -130,7 +138,7 @@ fn places(span: &[f64]) -> impl Iterator<Item = (f64, f64)> {
 /// Gauss-Newton on the control points between the first and the last, with the step halved until it helps.
 fn solved(
     start: Curve<f64>,
-    medial: &Surface<DVec3>,
+    medial: &impl ParametricSurface<DVec3>,
     profile: &Profile,
     lines: &[Line],
 ) -> Result<Pace, NurbsError> {
@@ -168,7 +176,7 @@ fn solved(
 /// The step of Gauss-Newton, zero for the first and the last control point.
 fn update(
     u: &Curve<f64>,
-    medial: &Surface<DVec3>,
+    medial: &impl ParametricSurface<DVec3>,
     profile: &Profile,
     lines: &[Line],
 ) -> Result<Vec<f64>, NurbsError> {

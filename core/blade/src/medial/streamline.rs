@@ -86,6 +86,33 @@ impl Streamline {
             self.length.backward(fraction * self.length.total()).clamp(0.0, 1.0)
         }
     }
+
+    /// Chart coordinates at `u`, and their first and second derivative.
+    pub(crate) fn chart(&self, u: f64) -> [DVec2; 3] {
+        cubic(&self.controls, u)
+    }
+
+    /// u at the chart coordinate M = `m`, which must lie between those of the edges.
+    pub(crate) fn at_chart(&self, m: f64) -> f64 {
+        let (mut low, mut high, mut u) = (0.0, 1.0, 0.5);
+        for _ in 0..80 {
+            let [q, d, _] = self.chart(u);
+            let miss = q.x - m;
+            *(if miss > 0.0 { &mut high } else { &mut low }) = u;
+            let newton = u - miss / d.x;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - u).abs() <= 2.0 * f64::EPSILON {
+                break;
+            }
+            u = next;
+        }
+        u
+    }
+
+    /// The stream surface it lies on.
+    pub(crate) fn surface(&self) -> &StreamSurface {
+        &self.surface
+    }
 }
 
 /// Point and derivatives of a cubic Bezier curve.

@@ -29,7 +29,8 @@ fn runner() -> Runner {
     let contour = |p: &[[f64; 2]]| ContourSpec::Points(p.to_vec());
     let spec = SpaceSpec::Annular { hub: contour(&HUB), shroud: contour(&SHROUD) };
     let StreamSpace::Annular(space) = spec.space(&Pointer::root()).unwrap() else { panic!("not annular") };
-    let trace = |p: &[[f64; 2]]| Trace::new(contour(p).curve(&Pointer::root()).unwrap(), &space).unwrap();
+    let trace =
+        |p: &[[f64; 2]]| Trace::new(contour(p).curve(&Pointer::root()).unwrap(), &space, false).unwrap();
     let traces = [
         trace(&[[0.5, 204.0], [32.0, 200.0], [66.0, 197.0]]),
         trace(&[[84.0, 67.0], [112.0, 112.0], [128.0, 159.0]]),

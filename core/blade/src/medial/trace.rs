@@ -10,6 +10,8 @@ use glam::DVec2;
 pub(crate) struct Trace {
     /// (x, r) over [0, 1], from hub to shroud; continued straight beyond its ends.
     curve: Curve<DVec2>,
+    /// Whether it ends in a tip, beyond which there is no streamline to meet.
+    pointed: bool,
 }
 
 /// Why a curve is no trace.
@@ -25,20 +27,23 @@ pub(crate) enum TraceFlaw {
 
 /// How far a trace may end from hub and shroud, in span fractions; it is continued straight to them.
 pub(crate) const SHORT: f64 = 0.02;
+/// Least span fraction of a tip.
+const LEAST_TIP: f64 = 0.2;
 /// Points at which the order along the span is checked.
 const CHECKS: u32 = 96;
 
 impl Trace {
-    /// Checks that `curve` crosses every streamline of `space` once.
-    pub(crate) fn new(curve: Curve<DVec2>, space: &Annular) -> Result<Self, TraceFlaw> {
-        let trace = Self { curve };
+    /// Checks that `curve` crosses every streamline of `space` once, or every one below its end if that is a tip
+    /// (`pointed`).
+    pub(crate) fn new(curve: Curve<DVec2>, space: &Annular, pointed: bool) -> Result<Self, TraceFlaw> {
+        let trace = Self { curve, pointed };
         let v = |i: u32| {
             let at = space.coordinates(trace.at(f64::from(i) / f64::from(CHECKS)).0);
             at.map(|(_, v)| v).map_err(TraceFlaw::Outside)
         };
         let all = (0..=CHECKS).map(v).collect::<Result<Vec<f64>, _>>()?;
         let (start, end) = (all[0], all[CHECKS as usize]);
-        if start > SHORT || end < 1.0 - SHORT {
+        if start > SHORT || end < if pointed { LEAST_TIP } else { 1.0 - SHORT } {
             return Err(TraceFlaw::Short { start, end });
         }
         match all.windows(2).find(|pair| !(pair[1] > pair[0])) {
@@ -53,7 +58,7 @@ impl Trace {
     /// [`BladeError::OutsideContours`].
     pub(crate) fn station(&self, space: &Annular, v: f64) -> Result<f64, BladeError> {
         // Newton's method on the span fraction along the trace, between bisection bounds.
-        let (mut low, mut high) = (-0.5, 1.5);
+        let (mut low, mut high) = (-0.5, if self.pointed { 1.0 } else { 1.5 });
         let mut t = v;
         let mut s = 0.0;
         for _ in 0..80 {
@@ -76,6 +81,11 @@ impl Trace {
             t = next;
         }
         Ok(s)
+    }
+
+    /// The point (x, r) that it ends in, and its direction there.
+    pub(crate) fn end(&self) -> (DVec2, DVec2) {
+        self.at(1.0)
     }
 
     /// Span fractions between the ends at which the streamlines' directions at the trace are less smooth than

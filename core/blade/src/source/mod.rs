@@ -13,7 +13,7 @@ use crate::fault::{Fault, Pointer};
 use crate::stream::{SpaceSpec, StreamSpace};
 use coolinggen_nurbs::ParametricSurface;
 use glam::DVec2;
-use medial::{PropellerTableSource, TurbineSource};
+use medial::{PropellerSource, PropellerTableSource, TurbineSource};
 use pritchard::PritchardSource;
 use schemars::JsonSchema;
 use sections::SectionsSource;
@@ -36,6 +36,9 @@ pub enum BladeSource {
     /// A turbine blade from hydraulic parameters.
     #[serde(rename = "medial-turbine")]
     MedialTurbine(Box<TurbineSource>),
+    /// A propeller blade from hydraulic parameters, closed at the tip.
+    #[serde(rename = "medial-propeller")]
+    MedialPropeller(Box<PropellerSource>),
     /// A propeller blade from radial tables.
     #[serde(rename = "propeller-table")]
     PropellerTable(Box<PropellerTableSource>),
@@ -85,6 +88,7 @@ impl BladeSource {
             Self::Sections(source) => source.blade(space),
             Self::Pritchard(source) => source.blade(space),
             Self::MedialTurbine(source) => source.blade(space),
+            Self::MedialPropeller(source) => source.blade(space),
             Self::PropellerTable(source) => source.blade(space),
             Self::Surface(source) => source.blade(space),
             Self::Step(source) => source.blade(space, folder),

@@ -6,18 +6,19 @@ use crate::law::{Law, LawSpec};
 use crate::medial::{Profile, ProfileFlaw};
 use glam::DVec2;
 
-/// Reads the law at field `name` and checks that its values lie between `min` and `max`, both included.
+/// Reads the law at `pointer` and checks that its values lie between `min` and `max`, both included.
 pub(super) fn law(
     spec: &LawSpec,
-    name: &str,
+    pointer: Pointer,
     (min, max): (f64, f64),
     unit: &'static str,
     faults: &mut Vec<Fault>,
 ) -> Option<Law> {
-    let pointer = Pointer::root().at(name);
     let law = spec.law(&pointer).map_err(|mut more| faults.append(&mut more)).ok()?;
     let (least, greatest) = law.bounds();
     if let Some(value) = [least, greatest].into_iter().find(|v| !(min..=max).contains(v)) {
+        let name = pointer.to_string();
+        let name = name.trim_start_matches('/');
         let message = format!("{name} must lie between {min} and {max} {unit}, but is {value}");
         faults.push(
             Fault::new(pointer, "out_of_range", message.trim_end()).value(value).min(min).max(max).unit(unit),

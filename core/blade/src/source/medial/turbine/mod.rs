@@ -3,14 +3,14 @@
 mod plan;
 
 use super::assembly::{self, Finish};
+use super::contour::Contour;
 use super::read;
 use super::spec::{ClosingSpec, ProfileSpec, SideSpec, SkinSpec};
 use crate::blade::Blade;
 use crate::fault::{Fault, Pointer};
 use crate::law::{Law, LawSpec};
-use crate::medial::{Profile, Trace, TraceFlaw};
-use crate::source::OUTSIDE_CONTOURS;
-use crate::stream::{Annular, ContourSpec, StreamSpace};
+use crate::medial::Profile;
+use crate::stream::{ContourSpec, StreamSpace};
 use coolinggen_nurbs::ParametricCurve;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -67,11 +67,7 @@ fn third() -> LawSpec {
 
 /// A source that has been read.
 struct Plan<'a> {
-    space: &'a Annular,
-    traces: [Trace; 2],
-    phi: [Law; 2],
-    beta: [Law; 2],
-    zeta: [Law; 2],
+    contour: Contour<'a>,
     /// Profile and scale of suction and pressure side.
     sides: [(Profile, Law); 2],
     closing: ClosingSpec,
@@ -110,31 +106,24 @@ impl TurbineSource {
             return Err(vec![Fault::new("/kind", "space", message)]);
         };
         let mut faults = Vec::new();
-        let leading = trace(&self.leading_edge, "leading_edge", annular, &mut faults);
-        let trailing = trace(&self.trailing_edge, "trailing_edge", annular, &mut faults);
-        let turn = (-3600.0, 3600.0);
-        let mut law = |spec, name, limits, unit| read::law(spec, name, limits, unit, &mut faults);
-        let phi =
-            [law(&self.phi0_deg, "phi0_deg", turn, "deg"), law(&self.phi1_deg, "phi1_deg", turn, "deg")];
-        let angle = (2.0, 178.0);
-        let beta = [
-            law(&self.beta0_deg, "beta0_deg", angle, "deg"),
-            law(&self.beta1_deg, "beta1_deg", angle, "deg"),
-        ];
-        let part = (0.02, 1.0);
-        let zeta = [law(&self.zeta0, "zeta0", part, ""), law(&self.zeta1, "zeta1", part, "")];
+        let contour = Contour::read(
+            [&self.leading_edge, &self.trailing_edge],
+            [&self.phi0_deg, &self.phi1_deg, &self.beta0_deg, &self.beta1_deg, &self.zeta0, &self.zeta1],
+            annular,
+            false,
+            &mut faults,
+        );
         let thick = (1e-3, 1e4);
-        let thickness = law(&self.thickness, "thickness", thick, "mm");
+        let root = Pointer::root();
+        let mut law = |spec, at| read::law(spec, at, thick, "mm", &mut faults);
+        let thickness = law(&self.thickness, root.at("thickness"));
         let other = self.pressure_side.clone().unwrap_or_default();
-        let other_thickness =
-            other.thickness.as_ref().map(|spec| law(spec, "pressure_side/thickness", thick, "mm"));
-        let profile = read::profile(&self.profile, &Pointer::root().at("profile"), &mut faults);
-        let at = Pointer::root().at("pressure_side").at("profile");
+        let other_at = root.at("pressure_side");
+        let other_thickness = other.thickness.as_ref().map(|spec| law(spec, other_at.at("thickness")));
+        let profile = read::profile(&self.profile, &root.at("profile"), &mut faults);
+        let at = other_at.at("profile");
         let other_profile = other.profile.as_ref().map(|spec| read::profile(spec, &at, &mut faults));
         self.skin.check(&mut faults);
-        if let (Some(a), Some(b)) = (&leading, &trailing) {
-            in_order(a, b, annular, &mut faults);
-        }
         let closing = profile.as_ref().map(|p| {
             let other = other_profile.as_ref().and_then(Option::as_ref).unwrap_or(p);
             read::closing(self.closing, [p.tail(), other.tail()], &mut faults)
@@ -148,51 +137,10 @@ impl TurbineSource {
             other_profile.flatten().unwrap_or_else(|| profile.clone()),
             other_thickness.flatten().unwrap_or_else(|| thickness.clone()),
         );
-        let both = |[a, b]: [Option<Law>; 2]| a.zip(b).map(|(a, b)| [a, b]).ok_or_else(missing);
         Ok(Plan {
-            space: annular,
-            traces: leading.zip(trailing).map(|(a, b)| [a, b]).ok_or_else(missing)?,
-            phi: both(phi)?,
-            beta: both(beta)?,
-            zeta: both(zeta)?,
+            contour: contour.ok_or_else(missing)?,
             sides: [(profile, thickness), pressure],
             closing: closing.ok_or_else(missing)?,
         })
-    }
-}
-
-fn trace(spec: &ContourSpec, name: &str, space: &Annular, faults: &mut Vec<Fault>) -> Option<Trace> {
-    let at = Pointer::root().at(name);
-    let curve = spec.curve(&at).map_err(|mut more| faults.append(&mut more)).ok()?;
-    let explain = |flaw| match flaw {
-        TraceFlaw::Outside(e) => Fault::new(at.clone(), OUTSIDE_CONTOURS, e.to_string()).unit("mm"),
-        TraceFlaw::Short { start, end } => {
-            let message = format!(
-                "the trace runs from span fraction {start:.4} to {end:.4}, not from hub (0) to shroud (1)"
-            );
-            Fault::new(at.clone(), "short_of_contour", message)
-                .hint("its first point lies on the hub, its last on the shroud")
-        }
-        TraceFlaw::TurnsBack { v } => {
-            let message = format!("the trace turns back at span fraction {v:.4}");
-            Fault::new(at.clone(), "not_increasing", message).value(v)
-        }
-    };
-    Trace::new(curve, space).map_err(|flaw| faults.push(explain(flaw))).ok()
-}
-
-/// Refuses edges that meet or stand in the wrong order.
-fn in_order(leading: &Trace, trailing: &Trace, space: &Annular, faults: &mut Vec<Fault>) {
-    for k in 0..=20 {
-        let v = f64::from(k) / 20.0;
-        let (Ok(a), Ok(b)) = (leading.station(space, v), trailing.station(space, v)) else { continue };
-        if !(b > a + 1e-3) {
-            let message =
-                format!("at span fraction {v:.2} the trailing edge does not lie behind the leading edge");
-            faults.push(
-                Fault::new("/trailing_edge", "order", message).hint("contours and traces run with the flow"),
-            );
-            return;
-        }
     }
 }

@@ -1,11 +1,8 @@
 //! The geometry of a turbine blade, from laws to sides.
 
 use super::Plan;
-use crate::error::BladeError;
 use crate::fault::Fault;
-use crate::law::Law;
-use crate::medial::{Angles, MedialSurface, Pace, Side, Sides, Streamline, Streamlines, unit_normal};
-use crate::source::OUTSIDE_CONTOURS;
+use crate::medial::{MedialSurface, Pace, Side, Sides, Streamlines, unit_normal};
 use crate::source::medial::assembly::failed;
 use coolinggen_nurbs::{Knots, NurbsError, ParametricSurface};
 
@@ -19,41 +16,16 @@ const SPANS: [[usize; 2]; 3] = [[32, 14], [64, 14], [64, 32]];
 const PACE: f64 = 1e-5;
 
 impl Plan<'_> {
-    /// The streamline of `v`.
-    fn streamline(&self, v: f64) -> Result<Streamline, Vec<Fault>> {
-        let outside = |e: BladeError| vec![Fault::new("", OUTSIDE_CONTOURS, e.to_string()).unit("mm")];
-        let surface = self.space.surface(v).map_err(outside)?;
-        let mut m = [0.0; 2];
-        for i in [0, 1] {
-            let station = self.traces[i].station(self.space, v).map_err(outside)?;
-            m[i] = surface.chart_of_station(station);
-        }
-        let angles = Angles {
-            phi: [0, 1].map(|i| self.phi[i].at(v).to_radians()),
-            beta: [0, 1].map(|i| self.beta[i].at(v).to_radians()),
-            zeta: [0, 1].map(|i| self.zeta[i].at(v)),
-        };
-        Streamline::new(surface, m, &angles).map_err(|_| {
-            let message = format!(
-                "at span fraction {v:.3} the streamline does not run on from the leading to the trailing edge"
-            );
-            vec![
-                Fault::new("/zeta0", "runs_back", message)
-                    .value(angles.zeta[0])
-                    .hint("smaller zeta0 or zeta1, or angles that fit phi1 - phi0 better"),
-            ]
-        })
-    }
-
     /// The medial surface, its knots doubled until it is close.
     pub(super) fn medial(&self) -> Result<MedialSurface, Vec<Fault>> {
-        let length = self.streamline(0.5)?.length();
-        self.wrapped()?;
+        let length = self.contour.streamline(0.5, 0.5)?.length();
         let mut coarse: Option<(usize, Streamlines)> = None;
         for [around, along] in SPANS {
             let streamlines = match coarse.take() {
                 Some((spans, lines)) if spans == along => lines,
-                _ => Streamlines::new(self.knots_v(along).map_err(failed)?, |v| self.streamline(v))?,
+                _ => Streamlines::new(self.contour.knots_v(along).map_err(failed)?, |v| {
+                    self.contour.streamline(v, v)
+                })?,
             };
             let knots = Knots::clamped(5, &even(around)).map_err(failed)?;
             let medial = MedialSurface::new(&knots, &streamlines).map_err(failed)?;
@@ -66,40 +38,6 @@ impl Plan<'_> {
             coarse = Some((along, streamlines));
         }
         Err(failed(NurbsError::NotFound { what: "spans for the medial surface" }))
-    }
-
-    /// Quintic knots over the span, with room for the kinks in derivatives that laws and traces have at their knots.
-    fn knots_v(&self, spans: usize) -> Result<Knots, NurbsError> {
-        let laws = [&self.phi, &self.beta, &self.zeta].into_iter().flatten();
-        let mut breaks: Vec<f64> = laws.flat_map(Law::breaks).collect();
-        breaks.extend(self.traces.iter().flat_map(|t| t.breaks(self.space)));
-        breaks.extend([0.0, 1.0]);
-        breaks.sort_by(f64::total_cmp);
-        breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
-        let mut values = vec![0.0; 6];
-        for pair in breaks.windows(2) {
-            let parts = (spans as f64 * (pair[1] - pair[0])).ceil().max(1.0) as usize;
-            let size = (pair[1] - pair[0]) / parts as f64;
-            values.extend((1..parts).map(|k| pair[0] + size * k as f64));
-            // Laws, traces and contours are twice differentiable at their knots, directions of contours once.
-            values.extend(std::iter::repeat_n(pair[1], if pair[1] < 1.0 { 4 } else { 6 }));
-        }
-        Knots::new(5, values)
-    }
-
-    /// Refuses a blade that goes round the machine.
-    fn wrapped(&self) -> Result<(), Vec<Fault>> {
-        const MOST: f64 = 300.0;
-        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-        for law in &self.phi {
-            let (a, b) = law.bounds();
-            (low, high) = (low.min(a), high.max(b));
-        }
-        if high - low <= MOST {
-            return Ok(());
-        }
-        let message = format!("the blade covers {:.1} degrees of the machine, {MOST} at most", high - low);
-        Err(vec![Fault::new("/phi1_deg", "out_of_range", message).value(high - low).max(MOST).unit("deg")])
     }
 
     /// The sides, and which of them is the suction side: the one that the medial surface bends away from.
