@@ -17,8 +17,6 @@ use glam::{DVec2, DVec3};
 pub(crate) struct CutOut {
     /// m*, a regular surface over [0, 1] both ways.
     pub(crate) extended: Surface<DVec3>,
-    /// n*, its unit normals.
-    pub(crate) normals: Surface<DVec3>,
     /// c. Its last column is one point (Eq. 29), its first two rows are equal (30), the last two points of its last
     /// row are equal (31), and the column before the last lies on a line with the tip (32).
     pub(crate) cut: Surface<DVec2>,
@@ -31,7 +29,6 @@ impl CutOut {
     /// v* = 1 - (1 - v)^2: the tip is reached with the derivative zero, as Eq. 32 wants of v*.
     pub(crate) fn new(
         extended: Surface<DVec3>,
-        normals: Surface<DVec3>,
         knots_v: &Knots,
         edges: impl Fn(f64) -> [f64; 2],
     ) -> Result<Self, NurbsError> {
@@ -69,13 +66,14 @@ impl CutOut {
         let net = g.iter().flat_map(|&g| (0..columns).map(move |j| point(g, j)));
         let cut = Surface::new(Knots::clamped(3, &[0.0, 1.0])?, knots_v.clone(), net.collect())?;
         let residual = leading.greatest.max(trailing.greatest);
-        Ok(Self { extended, normals, cut, residual })
+        Ok(Self { extended, cut, residual })
     }
 
-    /// The normal n* o c.
+    /// The unit normal n* o c, of the extended surface itself.
     pub(crate) fn normal(&self, u: f64, v: f64) -> DVec3 {
         let c = self.cut.point(u, v).clamp(DVec2::ZERO, DVec2::ONE);
-        self.normals.point(c.x, c.y)
+        let (_, along, up) = self.extended.first_derivatives(c.x, c.y);
+        along.cross(up).normalize()
     }
 }
 
@@ -148,7 +146,8 @@ impl TwoSided for PointedSides {
         // Eq. 39: the plane of m*_1 and n*.
         let c = self.medial.cut.point(0.0, 1.0);
         let m = self.medial.extended.derivatives(c.x, c.y);
-        let normal = m.u.cross(self.medial.normals.point(c.x, c.y)).normalize();
-        Some(Tip { point: m.point, normal })
+        // Eq. 40: at the trailing edge n* is left of it.
+        let edge = m.u.cross(m.v).normalize();
+        Some(Tip { point: m.point, normal: m.u.cross(edge).normalize(), edge: Some(edge) })
     }
 }

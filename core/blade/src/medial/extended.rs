@@ -2,7 +2,7 @@
 
 use super::medial_surface::{ends_met, stations};
 use super::streamline::Streamline;
-use coolinggen_nurbs::{Knots, NurbsError, ParametricSurface, Surface};
+use coolinggen_nurbs::{Knots, NurbsError, Surface};
 use glam::{DVec2, DVec3};
 
 /// A streamline continued beyond both edges, with two continuous derivatives: the curvature it ends with decays over
@@ -40,13 +40,13 @@ impl Continued {
     }
 }
 
-/// An extended medial surface m*(u*, v*) with its unit normals: the best in the sense of least squares through
-/// `lines(v*)`, points of which are asked for at u*.
+/// An extended medial surface m*(u*, v*): the best in the sense of least squares through lines of constant v*, which
+/// `line(v*)` draws. The first and the last line are met at their ends.
 pub(crate) fn extended<E: From<NurbsError>>(
     knots_u: &Knots,
     knots_v: &Knots,
     line: impl Fn(f64) -> Result<Box<dyn Fn(f64) -> DVec3>, E>,
-) -> Result<(Surface<DVec3>, Surface<DVec3>), E> {
+) -> Result<Surface<DVec3>, E> {
     let (us, vs) = (stations(knots_u), stations(knots_v));
     let mut points = vec![DVec3::ZERO; us.len() * vs.len()];
     for (j, &v) in vs.iter().enumerate() {
@@ -57,13 +57,5 @@ pub(crate) fn extended<E: From<NurbsError>>(
     }
     let (fit_u, values_u) = ends_met(knots_u, &us)?;
     let (fit_v, values_v) = ends_met(knots_v, &vs)?;
-    let surface = fit_u.surface(&fit_v, &points, &values_u, &values_v)?;
-    let normal = |u: f64, v: f64| {
-        let (_, along, up) = surface.first_derivatives(u, v);
-        along.cross(up).normalize()
-    };
-    let grid: Vec<DVec3> =
-        us.iter().flat_map(|&u| vs.iter().map(move |&v| (u, v))).map(|(u, v)| normal(u, v)).collect();
-    let normals = fit_u.surface(&fit_v, &grid, &values_u, &values_v)?;
-    Ok((surface, normals))
+    Ok(fit_u.surface(&fit_v, &points, &values_u, &values_v)?)
 }

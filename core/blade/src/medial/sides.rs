@@ -29,6 +29,8 @@ pub(crate) struct Tip {
     pub(crate) point: DVec3,
     /// Unit normal of the tangent plane there.
     pub(crate) normal: DVec3,
+    /// Unit direction in which the lines of t = 1 leave it, if they do so in one line (Proposition 2, 3).
+    pub(crate) edge: Option<DVec3>,
 }
 
 /// What stands on one side of the medial surface.

@@ -179,27 +179,53 @@ impl Data {
         let (fit_v, values_v) = ends_met(knots_v, &self.v)?;
         let points: Vec<DVec3> = self.points.iter().flatten().copied().collect();
         let surface = fit_u.surface(&fit_v, &points, &values_u, &values_v)?;
-        let Some(Tip { point, normal }) = self.tip else { return Ok(surface) };
-        // Heights over the tangent plane are fitted again, with derivatives in v that are zero at the tip.
-        let ends = [0.0, 1.0].map(|v| Constraint::derivative(knots_v, v, 0));
-        let [start, end] = ends;
-        let constraints = [start?, end?, Constraint::derivative(knots_v, 1.0, 1)?];
-        let fit_v = LeastSquares::new(knots_v.clone(), &self.v, None, &constraints, None)?;
-        let values_v = [values_v[0], values_v[1], ConstraintValue::Zero];
-        let heights: Vec<f64> = points.iter().map(|p| normal.dot(*p - point)).collect();
-        let heights = fit_u.surface(&fit_v, &heights, &values_u, &values_v)?;
-        let columns = knots_v.control_count();
-        let mut index = 0;
-        let flat = surface.map(|p| {
-            let (j, height) = (index % columns, heights.points()[index]);
-            index += 1;
-            // What the constraints leave of zero is rounding.
-            match columns - j {
-                1 => point,
-                2 => *p - normal * normal.dot(*p - point),
-                _ => *p + normal * (height - normal.dot(*p - point)),
+        match &self.tip {
+            Some(tip) => self.with_tip(&surface, tip, &fit_u, &values_u, knots_v),
+            None => Ok(surface),
+        }
+    }
+
+    /// The surface with the tangent plane at the tip: heights over it are fitted again, with derivatives in v that are
+    /// zero there. So are the trailing edge's lines, across the direction that they leave the tip in.
+    fn with_tip(
+        &self,
+        surface: &Surface<DVec3>,
+        tip: &Tip,
+        fit_u: &LeastSquares,
+        values_u: &[ConstraintValue],
+        knots_v: &Knots,
+    ) -> Result<Surface<DVec3>, NurbsError> {
+        let constraints = [(0.0, 0), (1.0, 0), (1.0, 1)];
+        let constraints = constraints
+            .into_iter()
+            .map(|(v, order)| Constraint::derivative(knots_v, v, order))
+            .collect::<Result<Vec<_>, _>>()?;
+        let still = LeastSquares::new(knots_v.clone(), &self.v, None, &constraints, None)?;
+        let last = self.v.len() - 1;
+        let values_v = [ConstraintValue::Data(0), ConstraintValue::Data(last), ConstraintValue::Zero];
+        let height = |p: &DVec3| tip.normal.dot(*p - tip.point);
+        let heights: Vec<f64> = self.points.iter().flatten().map(height).collect();
+        let heights = fit_u.surface(&still, &heights, values_u, &values_v)?;
+        let (rows, columns) = surface.counts();
+        let mut points = surface.points().to_vec();
+        for (p, h) in points.iter_mut().zip(heights.points()) {
+            *p += tip.normal * (h - height(p));
+        }
+        if let Some(edge) = tip.edge {
+            for (row, data) in [(0, &self.points[0]), (rows - 1, &self.points[self.points.len() - 1])] {
+                let ends = [data[0], data[last], DVec3::ZERO];
+                let flat = still.curve(data, &ends)?.curve;
+                for (p, q) in points[row * columns..(row + 1) * columns].iter_mut().zip(flat.points()) {
+                    *p = *q + edge * edge.dot(*p - *q);
+                }
             }
-        });
-        Ok(flat)
+        }
+        // What the constraints leave of zero is rounding.
+        for row in points.chunks_exact_mut(columns) {
+            row[columns - 1] = tip.point;
+            let p = &mut row[columns - 2];
+            *p -= tip.normal * height(p);
+        }
+        Surface::new(surface.knots_u().clone(), knots_v.clone(), points)
     }
 }

@@ -23,6 +23,8 @@ pub(super) struct Finish<'a> {
     pub(super) suction: usize,
     /// t at which the leading edge ends on each side.
     pub(super) nose: [f64; 2],
+    /// The field to blame where the blade does not reach hub or shroud.
+    pub(super) blamed: &'static str,
     /// What to say of how the sides came about.
     pub(super) notes: Vec<String>,
 }
@@ -54,7 +56,8 @@ pub(super) fn blade(
     }
     let nose = [pressure, finish.suction].map(|k| skin.place(k, finish.nose[k]));
     let (closed, regions) = closed(&skin, nose, finish.closing, sides.tip()).map_err(failed)?;
-    let surface = assemble::reaching(BladeSurface::BSpline(closed), space, &Pointer::root())?;
+    let surface =
+        assemble::reaching(BladeSurface::BSpline(closed), space, &Pointer::root().at(finish.blamed))?;
     let mut notes = finish.notes;
     notes.push(format!(
         "both sides by {count_u} x {count_v} control points of degree {} x {}: average error {:.2e} mm, greatest {:.2e} mm",

@@ -62,6 +62,9 @@ fn third() -> LawSpec {
     LawSpec::Constant(1.0 / 3.0)
 }
 
+#[cfg(test)]
+mod tests;
+
 /// A source that has been read.
 struct Plan<'a> {
     contour: Contour<'a>,
@@ -100,7 +103,8 @@ impl PropellerSource {
             format!("pace along the profile within {:.1e} of its mean", pace.residual),
         ];
         let sides = PointedSides { medial, profile: plan.profile, pace, scale: plan.thickness };
-        let finish = Finish { skin: &self.skin, closing: plan.closing, suction, nose, notes };
+        let finish =
+            Finish { skin: &self.skin, closing: plan.closing, suction, nose, blamed: "thickness", notes };
         assembly::blade(&sides, finish, space)
     }
 
@@ -212,10 +216,10 @@ impl Plan<'_> {
         let (low, high) = ((low - margin).max(0.0), (high + margin).min(1.0));
         let knots = |spans: usize, degree: usize| Knots::uniform(degree, spans + degree).map_err(failed);
         let line = |fraction: f64| self.line(fraction, [low, high]).map_err(Trouble);
-        let made = extended::<Trouble>(&knots(SPANS[0], 5)?, &knots(SPANS[1], 3)?, line);
-        let (surface, normals) = made.map_err(|t| t.0)?;
+        let made = extended::<Trouble>(&knots(SPANS[0], 5)?, &knots(SPANS[1], 5)?, line);
+        let surface = made.map_err(|t| t.0)?;
         let part = |edge: usize, v: f64| station(edge, v).map_or(f64::NAN, |s| (s - low) / (high - low));
-        let cut = CutOut::new(surface, normals, &knots(SPANS[2], 3)?, |v| [part(0, v), part(1, v)]);
+        let cut = CutOut::new(surface, &knots(SPANS[2], 3)?, |v| [part(0, v), part(1, v)]);
         let cut = cut.map_err(failed)?;
         if !(cut.residual <= CUT) {
             let message = format!(

@@ -121,6 +121,6 @@ impl TwoSided for Sections {
 
     fn tip(&self) -> Option<Tip> {
         let point = self.point(0, 0.0, 1.0);
-        Some(Tip { point, normal: DVec3::new(0.0, point.y, point.z).normalize() })
+        Some(Tip { point, normal: DVec3::new(0.0, point.y, point.z).normalize(), edge: None })
     }
 }
