@@ -15,6 +15,9 @@ use glam::DVec3;
 /// Grid of the error that is reported: points a side, lines.
 const GRID: [usize; 2] = [81, 25];
 
+/// Regions with their ranges of u.
+type Regions = Vec<(Region, [f64; 2])>;
+
 /// How sides become a blade.
 pub(super) struct Finish<'a> {
     pub(super) skin: &'a SkinSpec,
@@ -83,7 +86,7 @@ fn closed(
     nose: [f64; 2],
     how: ClosingSpec,
     tip: Option<Tip>,
-) -> Result<(Surface<DVec3>, Vec<(Region, [f64; 2])>), NurbsError> {
+) -> Result<(Surface<DVec3>, Regions), NurbsError> {
     let net = match how {
         ClosingSpec::Sharp => closing::sharp(&skin.surface)?,
         ClosingSpec::Blunt | ClosingSpec::Rounded => skin.surface.clone(),
