@@ -236,7 +236,7 @@ fn tables_without_a_tip_are_refused() {
 
 #[test]
 fn a_medial_propeller_ends_in_its_tip() {
-    let (_, blade) = built(&sample(include_str!("../../../samples/medial-propeller.json")));
+    let (_, blade) = built(&sample(include_str!("../../../tests/bench/medial/propeller.json")));
     let tip = blade.surface.tip().unwrap();
     assert!((tip.x - 10.0).abs() < 1e-6 && (tip.y.hypot(tip.z) - 60.0).abs() < 1e-4, "{tip}");
     assert!(gap(&blade) < 1e-11);

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 fn sample() -> (StreamSpace, PropellerSource) {
     let mut design: Value =
-        serde_json::from_str(include_str!("../../../../../../samples/medial-propeller.json")).unwrap();
+        serde_json::from_str(include_str!("../../../../../../tests/bench/medial/propeller.json")).unwrap();
     design["blade"].as_object_mut().unwrap().remove("kind");
     let space: SpaceSpec = serde_json::from_value(design["space"].clone()).unwrap();
     (space.space(&Pointer::root()).unwrap(), serde_json::from_value(design["blade"].clone()).unwrap())
