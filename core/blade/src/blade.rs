@@ -42,6 +42,9 @@ pub struct FitReport {
     pub greatest_distance_mm: f64,
     /// JSON pointer to that point, relative to the blade; empty if there are no points.
     pub worst_point: String,
+    /// Mean distance from the surface of a grid of points of the sides that it stands for, mm (medial sources: Eq. 28 of
+    /// their paper).
+    pub average_distance_mm: f64,
     /// Greatest distance of the surface's section curves from their stream surfaces, mm (sources with sections on
     /// stream surfaces).
     pub off_stream_surface_mm: f64,
@@ -53,7 +56,8 @@ pub struct FitReport {
     pub notes: Vec<String>,
 }
 
-/// A blade: a surface `B(u, w)`, closed in u over [0, 1], which reaches about 6 % of the span past hub and shroud.
+/// A blade: a surface `B(u, w)`, closed in u over [0, 1], which reaches about 6 % of the span past hub and shroud, or ends
+/// in a point, its tip ([`BladeSurface::tip`]).
 ///
 /// w is close to the span fraction but not the same: [`Blade::crossing`] finds where a line of constant u meets a
 /// stream surface. u runs around in the order leading edge, suction side, trailing edge, pressure side and is 0 at the

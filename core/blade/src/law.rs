@@ -140,6 +140,14 @@ impl Law {
         (p.y, d.y / d.x)
     }
 
+    /// Span fractions between the ends at which the law is less smooth than elsewhere: its inner knots.
+    pub(crate) fn breaks(&self) -> Vec<f64> {
+        let Form::Spline(curve) = &self.form else { return Vec::new() };
+        let (first, last) = (curve.points()[0].x, curve.points()[curve.points().len() - 1].x);
+        let inner = curve.breaks().into_iter().map(|t| curve.point(t).x);
+        inner.filter(|v| *v > 0.0 && *v < 1.0 && (first..=last).contains(v)).collect()
+    }
+
     /// Bounds of the values: least and greatest control value (the convex hull), so the law stays within them.
     pub fn bounds(&self) -> (f64, f64) {
         match &self.form {

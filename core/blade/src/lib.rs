@@ -9,6 +9,7 @@ mod error;
 mod fault;
 mod law;
 mod loft;
+mod medial;
 mod section;
 mod source;
 mod stream;
@@ -19,6 +20,10 @@ pub use error::BladeError;
 pub use fault::{Fault, Pointer};
 pub use law::{Law, LawSpec};
 pub use source::closed::EdgesSpec;
+pub use source::medial::{
+    ClosingSpec, Hand, KnotsSpec, MeanLine, ProfileSpec, PropellerRow, PropellerSource, PropellerTableSource,
+    SideSpec, SkinSpec, ThicknessForm, TurbineSource,
+};
 pub use source::pritchard::{PritchardSource, Stacking};
 pub use source::sections::{Extreme, SectionSpec, SectionsSource};
 pub use source::step::StepSource;

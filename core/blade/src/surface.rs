@@ -49,6 +49,14 @@ impl BladeSurface {
         }
     }
 
+    /// The point that the surface ends in at the upper end of w, if its last line is one point bit for bit.
+    pub fn tip(&self) -> Option<DVec3> {
+        let Self::BSpline(s) = self else { return None };
+        let columns = s.counts().1;
+        let tip = s.points()[columns - 1];
+        s.points().iter().skip(columns - 1).step_by(columns).all(|p| *p == tip).then_some(tip)
+    }
+
     /// Whether `d/du cross d/dw` points out of the closed surface, by the sense of rotation about it half way along w.
     pub(crate) fn is_outward(&self) -> bool {
         let ((start, end), (low, high)) = self.domain();

@@ -6,4 +6,8 @@ pub(crate) const TEMPLATES: &[(&str, &str)] = &[
     ("c3x", include_str!("../../../samples/c3x.json")),
     ("pritchard", include_str!("../../../samples/pritchard.json")),
     ("surface", include_str!("../../../samples/surface.json")),
+    ("francis", include_str!("../../../samples/francis.json")),
+    ("kaplan", include_str!("../../../samples/kaplan.json")),
+    ("medial-cooled", include_str!("../../../samples/medial-cooled.json")),
+    ("propeller", include_str!("../../../samples/propeller.json")),
 ];

@@ -82,7 +82,9 @@ pub(crate) fn fill(
             verified.remove(&sorted(patch.triangles[f.triangle]));
         }
         if !matches!(surface, SurfaceGeometry::Plane(_)) {
-            let turned = patch.triangles.iter().enumerate().filter(|&(_, &t)| !patch.is_upright(t));
+            let turned = patch.triangles.iter().enumerate();
+            // Triangles on a side that is one point have no area, and are left out of the mesh.
+            let turned = turned.filter(|&(_, &t)| !patch.is_upright(t) && !patch.vanishes(t));
             faults.extend(turned.map(|(triangle, &t)| Fault {
                 distance: f64::INFINITY,
                 uv: t.iter().map(|&i| patch.uv[i as usize]).sum::<DVec2>() / 3.0,

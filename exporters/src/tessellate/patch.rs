@@ -114,6 +114,12 @@ impl Patch {
         (b - a).cross(c - a)
     }
 
+    /// Whether two corners of a triangle are one point: a side of the surface's parameters that is a pole.
+    pub(crate) fn vanishes(&self, [a, b, c]: [u32; 3]) -> bool {
+        let [a, b, c] = [a, b, c].map(|i| self.at[i as usize]);
+        a == b || b == c || c == a
+    }
+
     /// Whether a triangle faces the way the surface does at its corners.
     pub(crate) fn is_upright(&self, t: [u32; 3]) -> bool {
         let normal: DVec3 = t.iter().map(|&i| self.normals[i as usize]).sum();

@@ -93,7 +93,7 @@ fn refuse_short(short: [f64; 2], at: &Pointer) -> Result<(), Vec<Fault>> {
     if faults.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// How much of a span fraction the surface ends short of its reach, at hub and shroud.
+/// How much of a span fraction the surface ends short of its reach, at hub and shroud. A tip is not to reach beyond.
 fn missing(surface: &BladeSurface, space: &StreamSpace) -> Result<[f64; 2], BladeError> {
     let (_, (low, high)) = surface.domain();
     let (mut below, mut above) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
@@ -101,6 +101,9 @@ fn missing(surface: &BladeSurface, space: &StreamSpace) -> Result<[f64; 2], Blad
         let u = f64::from(i) / 96.0;
         below = below.max(space.span_fraction(surface.point(u, low))? + REACH);
         above = above.max(1.0 + REACH - space.span_fraction(surface.point(u, high))?);
+    }
+    if surface.tip().is_some() {
+        above = f64::NEG_INFINITY;
     }
     // Rounding of a reach met exactly does not call for more.
     Ok([below - 1e-9, above - 1e-9])

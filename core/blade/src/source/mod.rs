@@ -2,6 +2,7 @@
 
 mod assemble;
 pub(crate) mod closed;
+pub(crate) mod medial;
 pub(crate) mod pritchard;
 pub(crate) mod sections;
 pub(crate) mod step;
@@ -12,6 +13,7 @@ use crate::fault::{Fault, Pointer};
 use crate::stream::{SpaceSpec, StreamSpace};
 use coolinggen_nurbs::ParametricSurface;
 use glam::DVec2;
+use medial::{PropellerSource, PropellerTableSource, TurbineSource};
 use pritchard::PritchardSource;
 use schemars::JsonSchema;
 use sections::SectionsSource;
@@ -31,6 +33,15 @@ pub enum BladeSource {
     Sections(SectionsSource),
     /// The eleven parameters of an axial turbine section.
     Pritchard(Box<PritchardSource>),
+    /// A turbine blade from hydraulic parameters.
+    #[serde(rename = "medial-turbine")]
+    MedialTurbine(Box<TurbineSource>),
+    /// A propeller blade from hydraulic parameters, closed at the tip.
+    #[serde(rename = "medial-propeller")]
+    MedialPropeller(Box<PropellerSource>),
+    /// A propeller blade from radial tables.
+    #[serde(rename = "propeller-table")]
+    PropellerTable(Box<PropellerTableSource>),
     /// A surface, inline.
     Surface(SurfaceSource),
     /// The surface or surfaces in a STEP file.
@@ -76,6 +87,9 @@ impl BladeSource {
         match self {
             Self::Sections(source) => source.blade(space),
             Self::Pritchard(source) => source.blade(space),
+            Self::MedialTurbine(source) => source.blade(space),
+            Self::MedialPropeller(source) => source.blade(space),
+            Self::PropellerTable(source) => source.blade(space),
             Self::Surface(source) => source.blade(space),
             Self::Step(source) => source.blade(space, folder),
         }

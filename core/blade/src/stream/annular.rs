@@ -72,13 +72,13 @@ impl Annular {
         Ok(Curve::new(self.net.knots_u().clone(), points.collect())?)
     }
 
-    pub(super) fn surface(&self, v: f64) -> Result<StreamSurface, BladeError> {
+    pub(crate) fn surface(&self, v: f64) -> Result<StreamSurface, BladeError> {
         let meridian = self.streamline(v)?;
         Ok(StreamSurface::revolved(v, meridian, self.reference, self.reference_angle, self.side)?)
     }
 
     /// Net point and its derivatives in s and v, extrapolated linearly beyond hub and shroud.
-    pub(super) fn at(&self, s: f64, v: f64) -> (DVec2, DVec2, DVec2) {
+    pub(crate) fn at(&self, s: f64, v: f64) -> (DVec2, DVec2, DVec2) {
         let inside = v.clamp(0.0, 1.0);
         let d = self.net.derivatives(s, inside);
         let beyond = v - inside;

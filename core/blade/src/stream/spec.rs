@@ -189,7 +189,7 @@ fn annular(
 
 impl ContourSpec {
     /// The contour over [0, 1].
-    fn curve(&self, pointer: &Pointer) -> Result<Curve<DVec2>, Vec<Fault>> {
+    pub(crate) fn curve(&self, pointer: &Pointer) -> Result<Curve<DVec2>, Vec<Fault>> {
         let (points, pointer_to_points) = match self {
             Self::Points(points) => (points, pointer.clone()),
             Self::Spline(spline) => (&spline.points, pointer.at("points")),

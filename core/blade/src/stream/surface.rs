@@ -218,6 +218,14 @@ impl StreamSurface {
         }
     }
 
+    /// M at parameter `s` of the streamline; `s` itself in a linear cascade.
+    pub(crate) fn chart_of_station(&self, s: f64) -> f64 {
+        match &self.form {
+            Form::Plane { .. } => s,
+            Form::Revolved { meridian, .. } => meridian.conformal(s),
+        }
+    }
+
     /// The derivative of [`StreamSurface::stream_to_space`] along the direction `(dm, d(r theta))`.
     pub(crate) fn stream_direction(&self, m: f64, r_theta: f64, direction: DVec2) -> DVec3 {
         match &self.form {

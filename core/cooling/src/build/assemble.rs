@@ -6,6 +6,7 @@ use super::clearance::{self, ChamberPolygon};
 use super::error::BuildError;
 use super::film::{FilmHoleGeometry, add_film_rows};
 use super::passages::{Passage, add_chambers};
+use super::pointed::add_pointed_tube;
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section, span_fractions};
 use super::sides::Sides;
@@ -14,7 +15,7 @@ use super::stack::Stack;
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
 use crate::plan::Plan;
-use coolinggen_blade::{Blade, StreamSpace, StreamSurface};
+use coolinggen_blade::{Blade, Fault, StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
 
 /// A built design.
@@ -26,8 +27,8 @@ pub struct CooledBlade {
     pub outer_faces: Vec<FaceId>,
     /// Faces between metal and coolant.
     pub passage_faces: Vec<FaceId>,
-    /// Hub and tip face of the metal.
-    pub end_faces: [FaceId; 2],
+    /// Hub and tip face of the metal; the hub's alone where the blade ends in a point.
+    pub end_faces: Vec<FaceId>,
     /// Faces that end a passage below the tip (1) or above the hub (0).
     pub closed_ends: Vec<(FaceId, usize)>,
     /// The stream surfaces of hub and tip.
@@ -51,6 +52,10 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let (mut passages, mut radial_holes) = (Vec::new(), Vec::new());
     let (mut film_holes, mut slots) = (Vec::new(), Vec::new());
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
+        if blade.surface.tip().is_some() {
+            let message = "this blade ends in a point: there is no tip that passages could open at";
+            return Err(BuildError::Refused(vec![Fault::new("/cooling", "pointed_tip", message)]));
+        }
         let grid = Grid::new(blade)?;
         let mut polygons = Vec::new();
         let (mut sections, mut tails) = (Vec::new(), Vec::new());
@@ -161,12 +166,15 @@ fn add_blade(model: &mut Model, blade: &Blade, ends: [&StreamSurface; 2]) -> Res
             });
         }
     }
-    add_tube(model, patches, ends)
+    match blade.surface.tip() {
+        Some(tip) => add_pointed_tube(model, patches, ends[0], tip),
+        None => add_tube(model, patches, ends),
+    }
 }
 
 /// Hub and tip face, and the faces that end passages inside.
 struct Ends {
-    open: [FaceId; 2],
+    open: Vec<FaceId>,
     closed: Vec<(FaceId, usize)>,
 }
 
@@ -240,13 +248,16 @@ fn add_solids(
             expected_genus: 0,
         });
     }
-    let mut end_faces = [FaceId(0); 2];
+    let mut end_faces = Vec::new();
     for (side, name) in [(0, "blade/hub"), (1, "blade/tip")] {
+        if outer.rings[side].edges.is_empty() {
+            continue;
+        }
         let stream = &ends[side];
         let cap = add_cap(model, name.to_owned(), style::end(), stream, &outer.rings[side], &openings[side])?;
         let forward = points_up(model, cap, stream) == (side == 1);
         metal.faces.push(FaceUse { face: cap, forward });
-        end_faces[side] = cap;
+        end_faces.push(cap);
     }
     let mut shells = vec![metal];
     shells.extend(voids);

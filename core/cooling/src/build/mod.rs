@@ -10,6 +10,7 @@ mod clearance;
 mod error;
 mod film;
 mod passages;
+mod pointed;
 mod probe;
 mod radial_holes;
 mod sections;

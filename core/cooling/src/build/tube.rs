@@ -25,7 +25,7 @@ pub(super) struct Patch {
 #[derive(Clone, Debug)]
 pub(super) struct CutTube {
     pub(super) faces: Vec<FaceId>,
-    /// The lower and the upper ring, in the direction of u.
+    /// The lower and the upper ring, in the direction of u; without edges where the tube ends in a point.
     pub(super) rings: [Ring; 2],
 }
 
@@ -36,9 +36,9 @@ const EDGE_TOLERANCE: f64 = 1e-8;
 const MOST_PARTS: usize = 200;
 
 /// Where a patch meets a stream surface.
-struct Crossing {
-    curve: Curve<DVec3>,
-    pcurve: Curve<DVec2>,
+pub(super) struct Crossing {
+    pub(super) curve: Curve<DVec3>,
+    pub(super) pcurve: Curve<DVec2>,
 }
 
 /// Adds the faces of a tube, cut by `ends` (lower, upper), to the model.
@@ -104,7 +104,7 @@ pub(super) fn add_tube(
 }
 
 /// The line of constant u between two values of v, exact, with the vertices' points at its ends.
-fn upright_curve(
+pub(super) fn upright_curve(
     surface: &SurfaceGeometry,
     u: f64,
     span: [f64; 2],
@@ -187,7 +187,7 @@ fn inverse(pace: &Curve<f64>, u: f64, guess: f64) -> f64 {
 
 /// Intersection of a patch with a stream surface, u running over the patch's whole domain: nodes at every knot in u
 /// and between, with the exact slopes at the ends, refined until it lies on both.
-fn crossing(surface: &SurfaceGeometry, stream: &StreamSurface, guess: f64) -> Option<Crossing> {
+pub(super) fn crossing(surface: &SurfaceGeometry, stream: &StreamSurface, guess: f64) -> Option<Crossing> {
     let breaks = surface.breaks_u();
     // Where a line of constant v crosses, readers take the straight parameter line, which needs no pace.
     let level_v = meet(surface, breaks[0], guess, stream)?;

@@ -1,0 +1,87 @@
+//! The two sides of a blade: medial surface, normals, profile and scale put together (section 3.4).
+
+use super::medial_surface::MedialSurface;
+use super::pace::Pace;
+use super::profile::Profile;
+use crate::law::Law;
+use coolinggen_nurbs::ParametricSurface;
+use glam::DVec3;
+
+/// Two sides of a blade as functions of t in [0, 1], from the leading to the trailing edge, and v in [0, 1].
+pub(crate) trait TwoSided {
+    /// The point of side `k` (0 or 1) at (t, v).
+    fn point(&self, k: usize, t: f64, v: f64) -> DVec3;
+
+    /// How fast side `k` leaves the leading edge, d y'(0) half way up, and y''(0) / (2 y'(0)).
+    fn nose(&self, k: usize) -> (f64, f64);
+
+    /// The point that all lines of constant t end in at v = 1, with the normal of the plane that they leave it in;
+    /// none for a blade whose tip is open.
+    fn tip(&self) -> Option<Tip> {
+        None
+    }
+}
+
+/// The tip of a blade that ends in a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tip {
+    /// The point.
+    pub(crate) point: DVec3,
+    /// Unit normal of the tangent plane there.
+    pub(crate) normal: DVec3,
+    /// Unit direction in which the lines of t = 1 leave it, if they do so in one line (Proposition 2, 3).
+    pub(crate) edge: Option<DVec3>,
+}
+
+/// What stands on one side of the medial surface.
+#[derive(Clone, Debug)]
+pub(crate) struct Side {
+    /// The profile curve p(t).
+    pub(crate) profile: Profile,
+    /// The reparameterization that belongs to its x(t).
+    pub(crate) pace: Pace,
+    /// The scaling function d(v), mm.
+    pub(crate) scale: Law,
+}
+
+/// The sides b(t, v) = m(u(t), v) +- d(v) n(u(t), v) y(t) (Eq. 26); t runs from the leading (0) to the trailing edge (1).
+#[derive(Clone, Debug)]
+pub(crate) struct Sides {
+    /// The medial surface with its normals.
+    pub(crate) medial: MedialSurface,
+    /// The side along the normal, then the one against it.
+    pub(crate) sides: [Side; 2],
+}
+
+/// Which way each side lies from the medial surface.
+const SIGN: [f64; 2] = [1.0, -1.0];
+
+impl TwoSided for Sides {
+    fn point(&self, k: usize, t: f64, v: f64) -> DVec3 {
+        let side = &self.sides[k];
+        let u = side.pace.at(t);
+        let lift = SIGN[k] * side.scale.at(v) * side.profile.at(t)[0].y;
+        self.medial.surface.point(u, v) + self.medial.normals.point(u, v) * lift
+    }
+
+    fn nose(&self, k: usize) -> (f64, f64) {
+        let [_, slope, change] = self.sides[k].profile.at(0.0);
+        (self.sides[k].scale.at(0.5) * slope.y, 0.5 * change.y / slope.y)
+    }
+}
+
+impl Sides {
+    /// Point and derivatives in t and v of side `k` at (t, v).
+    pub(crate) fn derivatives(&self, k: usize, t: f64, v: f64) -> (DVec3, DVec3, DVec3) {
+        let side = &self.sides[k];
+        let (u, pace) = side.pace.with_slope(t);
+        let [p, slope, _] = side.profile.at(t);
+        let (scale, rise) = side.scale.with_slope(v);
+        let (m, n) =
+            (self.medial.surface.first_derivatives(u, v), self.medial.normals.first_derivatives(u, v));
+        let (lift, sign) = (SIGN[k] * scale * p.y, SIGN[k]);
+        let along = m.1 * pace + n.1 * (pace * lift) + n.0 * (sign * scale * slope.y);
+        let up = m.2 + n.2 * lift + n.0 * (sign * rise * p.y);
+        (m.0 + n.0 * lift, along, up)
+    }
+}

@@ -1,0 +1,231 @@
+//! One B-spline surface near both sides of a blade (section 3.5).
+
+use super::deviation::Deviation;
+use super::knots;
+use super::medial_surface::{ends_met, points_met};
+use super::sides::{Tip, TwoSided};
+use coolinggen_nurbs::{Constraint, ConstraintValue, Knots, LeastSquares, NurbsError, Surface};
+use glam::DVec3;
+
+/// What a skin is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SkinSize {
+    /// Degree around the blade and along it.
+    pub(crate) degree: [usize; 2],
+    /// Control points around the blade, from trailing edge to trailing edge, and along it.
+    pub(crate) counts: [usize; 2],
+    /// Whether knots are put where they serve best, not evenly.
+    pub(crate) optimised: bool,
+}
+
+/// A B-spline surface S(s, v) near both sides: s runs over [0, 1] from the trailing edge along one side to the leading
+/// edge and along the other side back. One surface without a knot line of full multiplicity at the leading edge: both
+/// sides have opposite derivatives there (Eq. 27) and one normal.
+#[derive(Clone, Debug)]
+pub(crate) struct Skin {
+    /// The surface.
+    pub(crate) surface: Surface<DVec3>,
+    /// The side that is run through first, backwards: its index in [`TwoSided`].
+    pub(crate) first: usize,
+    places: Places,
+}
+
+/// How s depends on t: s goes from the nose with t + c t^2 (1 - t)^2 towards either end.
+///
+/// x grows with t^2 there, so that in t the nose is close to a parabola, which few spans take. c removes the term in t^2
+/// of y, which would have opposite signs on the two sides: s then runs over the nose with two continuous derivatives.
+/// Where the scales of the sides differ, so do the parts of s, for one speed at the nose.
+#[derive(Clone, Debug)]
+struct Places {
+    /// Data a side.
+    count: usize,
+    /// s at the data, evenly in t, from end to end; datum `count` is the nose.
+    s: Vec<f64>,
+}
+
+/// Least number of data a side, and data for each control point.
+const LEAST: usize = 120;
+const DENSITY: usize = 6;
+/// Rounds of putting knots and correcting parameters in turn.
+const CORRECTIONS: usize = 4;
+/// Lines of constant v.
+const LINES: usize = 48;
+/// Data a side and lines where a tolerance is to be kept.
+const FINE: [usize; 2] = [300, 128];
+
+impl Skin {
+    /// The skin of a size, beginning with side `first`.
+    pub(crate) fn new(sides: &dyn TwoSided, first: usize, size: SkinSize) -> Result<Self, NurbsError> {
+        let mut places = Places::new(sides, first, LEAST.max(DENSITY * size.counts[0]));
+        let data = Data::new(sides, first, &places, LINES);
+        let [p, q] = size.degree;
+        let mut knots_u = Knots::uniform(p, size.counts[0])?;
+        let mut knots_v = Knots::uniform(q, size.counts[1])?;
+        if size.optimised {
+            let lines = data.columns();
+            for _ in 0..CORRECTIONS {
+                knots_u = knots::optimised(knots_u, &places.s, &lines, &places.met())?;
+                places.s = knots::corrected(&knots_u, &places.s, &lines, &places.met())?;
+            }
+            knots_v = knots::optimised(knots_v, &data.v, &data.rows(), &data.ends())?;
+        }
+        let surface = data.fit(&knots_u, &knots_v, &places)?;
+        Ok(Self { surface, first, places })
+    }
+
+    /// The skin beginning with side `first` that is about within `tolerance` (mm) of the sides, its knots inserted
+    /// where they are missed.
+    pub(crate) fn within(
+        sides: &dyn TwoSided,
+        first: usize,
+        degree: [usize; 2],
+        tolerance: f64,
+    ) -> Result<Self, NurbsError> {
+        let places = Places::new(sides, first, FINE[0]);
+        let data = Data::new(sides, first, &places, FINE[1]);
+        // Both directions add to the distance.
+        let share = 0.4 * tolerance;
+        let knots_u = knots::refined(degree[0], &places.s, &data.columns(), &places.met(), share)?;
+        let knots_v = knots::refined(degree[1], &data.v, &data.rows(), &data.ends(), share)?;
+        let surface = data.fit(&knots_u, &knots_v, &places)?;
+        Ok(Self { surface, first, places })
+    }
+
+    /// s at `t` of side `k`.
+    pub(crate) fn place(&self, k: usize, t: f64) -> f64 {
+        self.places.at(k != self.first, t)
+    }
+
+    /// Eq. 28 on a grid of `around` points a side and `along` lines.
+    pub(crate) fn deviation(
+        &self,
+        sides: &dyn TwoSided,
+        around: usize,
+        along: usize,
+    ) -> Result<Deviation, NurbsError> {
+        Deviation::of(&self.surface, sides, |k, t| self.place(k, t), around, along)
+    }
+}
+
+impl Places {
+    fn new(sides: &dyn TwoSided, first: usize, count: usize) -> Self {
+        let noses = [sides.nose(first), sides.nose(1 - first)];
+        let (speed, bend) = (noses.map(|n| n.0), noses.map(|n| n.1.clamp(-2.0, 2.0)));
+        let nose = speed[0] / (speed[0] + speed[1]);
+        let along = |k: usize, t: f64| t + bend[k] * (t * (1.0 - t)).powi(2);
+        let s = (0..=2 * count).map(|i| {
+            let t = (i as f64 - count as f64) / count as f64;
+            if t > 0.0 { nose + (1.0 - nose) * along(1, t) } else { nose * (1.0 - along(0, -t)) }
+        });
+        Self { count, s: s.collect() }
+    }
+
+    /// Indices of the data that are met: trailing edge, leading edge, trailing edge.
+    fn met(&self) -> [usize; 3] {
+        [0, self.count, 2 * self.count]
+    }
+
+    /// s at `t` of the side run through first or second, by interpolation.
+    fn at(&self, second: bool, t: f64) -> f64 {
+        let place = if second { 1.0 + t } else { 1.0 - t } * self.count as f64;
+        let i = (place as usize).min(2 * self.count - 1);
+        self.s[i] + (place - i as f64) * (self.s[i + 1] - self.s[i])
+    }
+}
+
+/// Node `i` of the way round: backwards along the first side, then along the other.
+fn side_point(sides: &dyn TwoSided, first: usize, count: usize, i: usize, v: f64) -> DVec3 {
+    let t = (i as f64 - count as f64) / count as f64;
+    if t <= 0.0 { sides.point(first, -t, v) } else { sides.point(1 - first, t, v) }
+}
+
+/// Points of the sides on a grid.
+struct Data {
+    v: Vec<f64>,
+    /// `[around][along]`.
+    points: Vec<Vec<DVec3>>,
+    tip: Option<Tip>,
+}
+
+impl Data {
+    fn new(sides: &dyn TwoSided, first: usize, places: &Places, lines: usize) -> Self {
+        let v: Vec<f64> = (0..=lines).map(|j| j as f64 / lines as f64).collect();
+        let row = |i: usize| v.iter().map(|&v| side_point(sides, first, places.count, i, v)).collect();
+        let points = (0..=2 * places.count).map(row).collect();
+        Self { v, points, tip: sides.tip() }
+    }
+
+    /// Some lines of constant v.
+    fn columns(&self) -> Vec<Vec<DVec3>> {
+        let step = (self.v.len() - 1) / 6;
+        // A tip is no line.
+        let count = self.v.len() - usize::from(self.tip.is_some());
+        (0..count).step_by(step).map(|j| self.points.iter().map(|row| row[j]).collect()).collect()
+    }
+
+    /// Some lines of constant s.
+    fn rows(&self) -> Vec<Vec<DVec3>> {
+        let step = (self.points.len() - 1) / 16;
+        self.points.iter().step_by(step).cloned().collect()
+    }
+
+    fn ends(&self) -> [usize; 2] {
+        [0, self.v.len() - 1]
+    }
+
+    /// The best surface that meets both trailing edges and the leading edge, and a tip with its tangent plane.
+    fn fit(&self, knots_u: &Knots, knots_v: &Knots, places: &Places) -> Result<Surface<DVec3>, NurbsError> {
+        let (fit_u, values_u) = points_met(knots_u, &places.s, &places.met())?;
+        let (fit_v, values_v) = ends_met(knots_v, &self.v)?;
+        let points: Vec<DVec3> = self.points.iter().flatten().copied().collect();
+        let surface = fit_u.surface(&fit_v, &points, &values_u, &values_v)?;
+        match &self.tip {
+            Some(tip) => self.with_tip(&surface, tip, &fit_u, &values_u, knots_v),
+            None => Ok(surface),
+        }
+    }
+
+    /// The surface with the tangent plane at the tip: heights over it are fitted again, with derivatives in v that are
+    /// zero there. So are the trailing edge's lines, across the direction that they leave the tip in.
+    fn with_tip(
+        &self,
+        surface: &Surface<DVec3>,
+        tip: &Tip,
+        fit_u: &LeastSquares,
+        values_u: &[ConstraintValue],
+        knots_v: &Knots,
+    ) -> Result<Surface<DVec3>, NurbsError> {
+        let constraints = [(0.0, 0), (1.0, 0), (1.0, 1)];
+        let constraints = constraints
+            .into_iter()
+            .map(|(v, order)| Constraint::derivative(knots_v, v, order))
+            .collect::<Result<Vec<_>, _>>()?;
+        let still = LeastSquares::new(knots_v.clone(), &self.v, None, &constraints, None)?;
+        let last = self.v.len() - 1;
+        let values_v = [ConstraintValue::Data(0), ConstraintValue::Data(last), ConstraintValue::Zero];
+        let height = |p: &DVec3| tip.normal.dot(*p - tip.point);
+        let heights: Vec<f64> = self.points.iter().flatten().map(height).collect();
+        let heights = fit_u.surface(&still, &heights, values_u, &values_v)?;
+        let (rows, columns) = surface.counts();
+        let mut points = surface.points().to_vec();
+        for (p, h) in points.iter_mut().zip(heights.points()) {
+            *p += tip.normal * (h - height(p));
+        }
+        if let Some(edge) = tip.edge {
+            for (row, data) in [(0, &self.points[0]), (rows - 1, &self.points[self.points.len() - 1])] {
+                let ends = [data[0], data[last], DVec3::ZERO];
+                let flat = still.curve(data, &ends)?.curve;
+                for (p, q) in points[row * columns..(row + 1) * columns].iter_mut().zip(flat.points()) {
+                    *p = *q + edge * edge.dot(*p - *q);
+                }
+            }
+        }
+        // What the constraints leave of zero is rounding.
+        for row in points.chunks_exact_mut(columns) {
+            row[columns - 1] = tip.point;
+            let p = &mut row[columns - 2];
+            *p -= tip.normal * height(p);
+        }
+        Surface::new(surface.knots_u().clone(), knots_v.clone(), points)
+    }
+}
