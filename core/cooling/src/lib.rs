@@ -9,5 +9,6 @@ mod generate;
 pub mod plan;
 pub mod report;
 pub mod section;
+mod turn;
 
 pub use generate::{Generated, generate};

@@ -3,12 +3,12 @@
 use super::cap::{Ring, add_cap, points_up};
 use super::clearance;
 use super::error::BuildError;
-use super::passages::{Passage, add_chambers};
+use super::passages::{Passage, PassageEnd, add_chambers};
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section};
-use super::stack::Stack;
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
+use super::turns::{settled, sites};
 use crate::plan::Plan;
 use coolinggen_blade::{Blade, StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
@@ -46,8 +46,9 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         let grid = Grid::new(blade)?;
         let mut polygons = Vec::new();
         if let (Some(shell), false) = (&plan.shell, plan.chambers.is_empty()) {
-            let stack = Stack::new(blade, space, &grid, plan, shell)?;
-            (passages, polygons) = add_chambers(&mut model, blade, &stack, plan)?;
+            let stack = settled(blade, space, &grid, plan, shell)?;
+            let turns = sites(&stack, plan)?;
+            (passages, polygons) = add_chambers(&mut model, blade, &stack, plan, &turns)?;
         }
         if !plan.radial_holes.is_empty() {
             let sections = [Section::new(blade, space, &grid, 0.0)?, Section::new(blade, space, &grid, 1.0)?];
@@ -57,15 +58,16 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
             clearance::check(blade, &radial_holes, &polygons)?;
             for hole in &radial_holes {
                 let CutTube { faces, rings } = add_tube(&mut model, patches(hole)?, [&ends[0], &ends[1]])?;
-                let path = format!("radial_hole/{}", hole.name);
-                passages.push(Passage {
+                let [lower, upper] = rings;
+                let end = |ring, side, v| PassageEnd {
+                    ring,
+                    side,
+                    v,
                     name: hole.name.clone(),
-                    path,
-                    faces,
-                    rings,
-                    outward: true,
-                    span: [0.0, 1.0],
-                });
+                    path: format!("radial_hole/{}", hole.name),
+                };
+                let ends = [end(lower, 0, 0.0), end(upper, 1, 1.0)];
+                passages.push(Passage { name: hole.name.clone(), faces, outward: true, ends });
             }
         }
     }
@@ -129,38 +131,41 @@ fn add_solids(
         let mut coolant = Shell {
             faces: passage.faces.iter().map(|&face| FaceUse { face, forward: passage.outward }).collect(),
         };
-        let open = [passage.span[0] == 0.0, passage.span[1] == 1.0];
-        for side in [0, 1] {
-            let up_is_out = side == 1;
+        let both_open = passage.ends.iter().all(PassageEnd::is_open);
+        let one_side = passage.ends[0].side == passage.ends[1].side;
+        for (i, end) in passage.ends.iter().enumerate() {
+            let (open, side) = (end.is_open(), end.side);
             let middle;
-            let stream = if open[side] {
+            let stream = if open {
                 &ends[side]
             } else {
-                middle = space.surface(passage.span[side])?;
+                middle = space.surface(end.v)?;
                 &middle
             };
-            let (name, style) = match (open[side], side) {
-                (true, 0) => (format!("coolant/inlet/{}", passage.name), style::inlet()),
-                (true, _) => (format!("coolant/outlet/{}", passage.name), style::outlet()),
-                (false, 0) => (format!("{}/hub_end", passage.path), style::chamber(&passage.name)),
-                (false, _) => (format!("{}/tip_end", passage.path), style::chamber(&passage.name)),
+            // Where both ends open on one side, the first chamber's is the inlet.
+            let enters = if both_open && one_side { i == 0 } else { side == 0 };
+            let (name, style) = match (open, enters, side) {
+                (true, true, _) => (format!("coolant/inlet/{}", end.name), style::inlet()),
+                (true, false, _) => (format!("coolant/outlet/{}", end.name), style::outlet()),
+                (false, _, 0) => (format!("{}/hub_end", end.path), style::chamber(&end.name)),
+                (false, _, _) => (format!("{}/tip_end", end.path), style::chamber(&end.name)),
             };
-            let cap = add_cap(model, name, style, stream, &passage.rings[side], &[])?;
-            let forward = points_up(model, cap, stream) == up_is_out;
+            let cap = add_cap(model, name, style, stream, &end.ring, &[])?;
+            let forward = points_up(model, cap, stream) == (side == 1);
             coolant.faces.push(FaceUse { face: cap, forward });
-            if open[side] {
-                openings[side].push(passage.rings[side].clone());
+            if open {
+                openings[side].push(end.ring.clone());
             } else {
                 own.faces.push(FaceUse { face: cap, forward: !forward });
                 closed_ends.push((cap, side));
             }
         }
-        if open[0] || open[1] {
+        if passage.ends.iter().any(PassageEnd::is_open) {
             metal.faces.extend(own.faces);
         } else {
             voids.push(own);
         }
-        through += usize::from(open[0] && open[1]);
+        through += usize::from(both_open);
         coolants.push(Solid {
             name: format!("coolant/{}", passage.name),
             shells: vec![coolant],

@@ -7,14 +7,17 @@ mod cap;
 mod chambers;
 mod clearance;
 mod error;
+mod nodes;
 mod passages;
 mod probe;
 mod radial_holes;
 mod sections;
 mod shell;
+mod spans;
 mod stack;
 mod style;
 mod tube;
+mod turns;
 
 pub use assemble::{CooledBlade, build};
 pub use error::BuildError;
