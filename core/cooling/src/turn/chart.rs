@@ -88,6 +88,11 @@ impl TurnChart {
         mapped
     }
 
+    /// Length in space of a direction of the box at `q`.
+    pub(super) fn speed(&self, q: DVec3, direction: DVec3) -> f64 {
+        (self.map(q).slopes * direction).length()
+    }
+
     /// Coordinates of a point, by Newton's method from `start`, to 1e-10 mm.
     pub(super) fn inverse(&self, point: DVec3, start: DVec3) -> Option<DVec3> {
         let mut q = start;

@@ -13,6 +13,7 @@
 mod chart;
 mod closure;
 mod fibre;
+mod pace;
 mod refusal;
 mod shape;
 mod surfaces;
@@ -20,7 +21,7 @@ mod top;
 
 pub(crate) use refusal::TurnRefusal;
 pub(crate) use shape::{TurnRequest, TurnShape};
-pub(crate) use surfaces::{EndRow, TurnSurfaces, loft};
+pub(crate) use surfaces::{EndRow, loft};
 
 use crate::section::{Camber, ChamberRing, Outline, SEGMENTS};
 use coolinggen_blade::StreamSurface;

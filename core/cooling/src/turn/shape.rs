@@ -1,13 +1,13 @@
 //! The shape of a turn in its box: a ring for every angle.
 
 use super::chart::TurnChart;
-use super::closure::{Path, coordinates, paths};
+use super::closure::{Place, Strip, coordinates};
 use super::top::{Heights, Top};
 use super::{TurnRefusal, TurnSection};
 use crate::build::BuildError;
 use crate::section::SEGMENTS;
-use glam::{DVec2, DVec3};
-use std::f64::consts::{FRAC_PI_2, PI};
+use glam::DVec3;
+use std::f64::consts::PI;
 
 /// What a turn is made from; lengths in mm.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ pub(crate) struct TurnRequest<'a> {
 pub(super) const STENCIL: f64 = 1e-3;
 
 /// The parameters of a segment with the points of the stencils, increasing.
-pub(super) fn stations(nodes: &[f64]) -> Vec<f64> {
+fn stations(nodes: &[f64]) -> Vec<f64> {
     let last = nodes.len() - 1;
     let mut stations = vec![nodes[0], STENCIL, 2.0 * STENCIL];
     stations.extend(&nodes[1..last]);
@@ -38,23 +38,15 @@ pub(super) fn stations(nodes: &[f64]) -> Vec<f64> {
     stations
 }
 
-/// One station of a closure.
-#[derive(Clone, Debug)]
-struct Station {
-    /// As the front and the back chamber go on.
-    chambers: [Path; 2],
-    /// (eta, zeta) half way round.
-    top: DVec2,
-}
-
 /// A turn's rings.
 #[derive(Clone, Debug)]
 pub(crate) struct TurnShape {
     pub(super) chart: TurnChart,
-    /// Stations of the closures, empty for the sides.
-    closures: [Vec<Station>; SEGMENTS],
-    /// For the sides: fractions of the way in x from their first to their last point, in the front and back chamber.
-    sides: [Vec<[f64; 2]>; SEGMENTS],
+    /// The inner closure (segments 1 to 3) and the outer one (5 to 7).
+    closures: [Vec<Strip>; 2],
+    /// The two sides (segments 0 and 4): how far along x their stations are from the first to the last, in the front and
+    /// the back chamber.
+    sides: [Vec<[f64; 2]>; 2],
     /// Stations of each segment.
     pub(super) stations: [Vec<f64>; SEGMENTS],
     outer: f64,
@@ -76,114 +68,88 @@ impl TurnShape {
             Err(refusal) => return Ok(Err(refusal)),
         };
         let stations = std::array::from_fn(|k| stations(&request.nodes[k]));
-        let mut closures: [Vec<Station>; SEGMENTS] = Default::default();
-        for k in [1, 2, 3, 5, 6, 7] {
-            let ts: &Vec<f64> = &stations[k];
-            let both = (paths(&chart, sections, 0, k, ts)?, paths(&chart, sections, 1, k, ts)?);
-            let (Some(front), Some(back)) = both else { return Ok(Err(TurnRefusal::Unmapped)) };
-            for ((&t, front), back) in ts.iter().zip(front).zip(back) {
-                let Some(top) = top.at(k, t) else { return Ok(Err(TurnRefusal::Unmapped)) };
-                closures[k].push(Station { chambers: [front, back], top });
-            }
-        }
-        let mut sides: [Vec<[f64; 2]>; SEGMENTS] = Default::default();
+        let closures = [1, 5].map(|first| Strip::closure(&chart, sections, &top, first, &request.nodes));
+        let [inner, outer] = closures;
+        let (Some(inner), Some(outer)) = (inner?, outer?) else { return Ok(Err(TurnRefusal::Unmapped)) };
+        let mut sides: [Vec<[f64; 2]>; 2] = Default::default();
         for k in [0, 4] {
             let fractions =
                 [0, 1].map(|chamber| side_fractions(&chart, &sections[0], chamber, k, &stations[k]));
             let [Some(front), Some(back)] = fractions else { return Ok(Err(TurnRefusal::Unmapped)) };
-            sides[k] = front.into_iter().zip(back).map(|(f, b)| [f, b]).collect();
+            sides[k / 4] = front.into_iter().zip(back).map(|(f, b)| [f, b]).collect();
         }
         let far = |chamber: usize| {
-            let outer = closures[5..].iter().flatten();
-            outer.map(|s| s.chambers[chamber].at(0.0).x.abs()).fold(0.0, f64::max)
+            let ends = outer.iter().zip(&stations[5..]);
+            let points = ends.flat_map(|(strip, ts)| ts.iter().map(move |&t| strip.chamber_end(chamber, t)));
+            points.map(|q| q.x.abs()).fold(0.0, f64::max)
         };
         let widths = [far(0), far(1)];
+        let closures = [inner, outer];
         let (outer, exponent) = (request.outer, request.exponent);
         Ok(Ok(Self { chart, closures, sides, stations, outer, exponent, widths }))
     }
 
-    /// Polar angle about the wall's end of the ring at `psi`.
-    fn polar(&self, psi: f64) -> f64 {
+    /// The place on the way round at `psi` from 0 to pi.
+    fn place(&self, psi: f64) -> Place {
         let half = (0.5 * psi).sin();
-        let width = self.widths[0] + (self.widths[1] - self.widths[0]) * half * half;
-        (self.outer * psi.sin()).atan2(width * psi.cos())
+        let back = half * half;
+        let width = self.widths[0] + (self.widths[1] - self.widths[0]) * back;
+        Place { polar: (self.outer * psi.sin()).atan2(width * psi.cos()), back }
+    }
+
+    /// The strip of a closure's segment; none for a side.
+    fn strip(&self, k: usize) -> Option<&Strip> {
+        match k {
+            1..=3 => self.closures[0].get(k - 1),
+            5..=7 => self.closures[1].get(k - 5),
+            _ => None,
+        }
+    }
+
+    /// Point of a closure's segment `k` at `t`.
+    fn closure_point(&self, k: usize, t: f64, place: Place) -> DVec3 {
+        let exponent = if k < 4 { 2.0 } else { self.exponent };
+        self.strip(k).map_or(DVec3::NAN, |strip| strip.at(t, place, exponent))
     }
 
     /// Points of segment `k` at all its stations, in the ring at `psi`: coordinates in the box.
-    pub(super) fn ring(&self, k: usize, psi: f64) -> Vec<DVec3> {
-        if !self.closures[k].is_empty() {
-            let phi = self.polar(psi);
-            return self.closures[k].iter().map(|station| self.closure(k, station, phi)).collect();
+    fn ring(&self, k: usize, psi: f64) -> Vec<DVec3> {
+        let place = self.place(psi);
+        if self.strip(k).is_some() {
+            return self.stations[k].iter().map(|&t| self.closure_point(k, t, place)).collect();
         }
-        let [from, to] = self.side_ends(k, psi);
-        let half = (0.5 * psi).sin();
-        let w = half * half;
-        let fraction = |[front, back]: &[f64; 2]| front + (back - front) * w;
-        self.sides[k].iter().map(|f| from.lerp(to, fraction(f))).collect()
-    }
-
-    /// First and last point of a side: where the closures before and after it end.
-    fn side_ends(&self, k: usize, psi: f64) -> [DVec3; 2] {
-        let phi = self.polar(psi);
         let (before, after) = ((k + SEGMENTS - 1) % SEGMENTS, k + 1);
-        let eta = if k == 0 { 1.0 } else { 0.0 };
-        let end = |k: usize, station: Option<&Station>| {
-            let at = station.map_or(DVec3::ZERO, |s| self.closure(k, s, phi));
-            DVec3::new(at.x, eta, at.z)
-        };
-        [end(before, self.closures[before].last()), end(after, self.closures[after].first())]
-    }
-
-    /// A point of a closure at the polar angle `phi`: on the superellipse from the chamber's path to the top.
-    fn closure(&self, k: usize, station: &Station, phi: f64) -> DVec3 {
-        let exponent = self.exponent_of(k);
-        let path = &station.chambers[usize::from(phi > FRAC_PI_2)];
-        let (eta_top, height) = (station.top.x, station.top.y);
-        let (sin, cos) = (phi.sin().abs(), phi.cos().abs());
-        let (rise, run) = (path.at(height).x.abs() * sin, height * cos);
-        let norm = (rise.powf(exponent) + run.powf(exponent)).powf(1.0 / exponent);
-        let zeta = height * rise / norm;
-        let at = path.at(zeta);
-        let weight = cos * cos * cos;
-        DVec3::new(at.x * run / norm, at.y * weight + eta_top * (1.0 - weight), zeta)
-    }
-
-    fn exponent_of(&self, k: usize) -> f64 {
-        if k < 4 { 2.0 } else { self.exponent }
+        let mut from = self.closure_point(before, 1.0, place);
+        let mut to = self.closure_point(after, 0.0, place);
+        // On the side itself, to the last bit.
+        (from.y, to.y) = if k == 0 { (1.0, 1.0) } else { (0.0, 0.0) };
+        let fraction = |[front, back]: &[f64; 2]| front + (back - front) * place.back;
+        self.sides[k / 4].iter().map(|f| from.lerp(to, fraction(f))).collect()
     }
 
     /// Derivative of zeta in psi at the turn's first ring (chamber 0) or last ring (1), at all stations of segment `k`.
     pub(super) fn rise(&self, k: usize, chamber: usize) -> Vec<f64> {
         // With rings turning about the wall's end, zeta grows as x times the polar angle.
         let pace = self.outer / self.widths[chamber] * if chamber == 0 { 1.0 } else { -1.0 };
-        let rate = |station: &Station| {
-            let path = &station.chambers[chamber];
-            path.at(station.top.y).x.abs() * pace
-        };
-        if !self.closures[k].is_empty() {
-            return self.closures[k].iter().map(rate).collect();
+        let rate = |k: usize, t: f64| self.strip(k).map_or(f64::NAN, |strip| strip.rise(chamber, t) * pace);
+        if self.strip(k).is_some() {
+            return self.stations[k].iter().map(|&t| rate(k, t)).collect();
         }
-        let (before, after) = ((k + SEGMENTS - 1) % SEGMENTS, k + 1);
-        let from = self.closures[before].last().map_or(0.0, rate);
-        let to = self.closures[after].first().map_or(0.0, rate);
-        self.sides[k].iter().map(|f| from + (to - from) * f[chamber]).collect()
+        let (from, to) = (rate((k + SEGMENTS - 1) % SEGMENTS, 1.0), rate(k + 1, 0.0));
+        self.sides[k / 4].iter().map(|f| from + (to - from) * f[chamber]).collect()
     }
 
-    /// Coordinates of the first point of segment `k` in a chamber's end ring.
-    pub(super) fn start_of(&self, k: usize, chamber: usize) -> Option<DVec3> {
-        self.ring(k, PI * chamber as f64).first().copied()
+    /// Coordinates of the stations of segment `k` in a chamber's end ring.
+    pub(super) fn end_ring(&self, k: usize, chamber: usize) -> Vec<DVec3> {
+        self.ring(k, PI * chamber as f64)
     }
 
     /// Flow area of the ring at the fraction `p` of the way round, mm2: the length of its vector area.
     pub(crate) fn area(&self, p: f64) -> f64 {
         let points: Vec<DVec3> = (0..SEGMENTS).flat_map(|k| self.points(k, p)).collect();
         let next = points.iter().cycle().skip(1);
-        0.5 * points
-            .iter()
-            .zip(next)
-            .map(|(a, b)| (*a - points[0]).cross(*b - points[0]))
-            .sum::<DVec3>()
-            .length()
+        let fan = points.iter().zip(next).map(|(a, b)| (*a - points[0]).cross(*b - points[0]));
+        0.5 * fan.sum::<DVec3>().length()
     }
 
     /// Width of the passage at the outer side above the wall's end, mm.

@@ -21,7 +21,7 @@ pub(crate) struct EndRow {
 #[derive(Clone, Debug)]
 pub(crate) struct TurnSurfaces {
     pub(crate) surfaces: [Surface<DVec3>; SEGMENTS],
-    /// Greatest distance of the lofts from the shape between the rings, mm.
+    /// Greatest distance of the shape between the rings from the lofts, normal to them, mm.
     pub(crate) deviation: f64,
 }
 
@@ -107,15 +107,11 @@ fn loft_rows(
 /// plane.
 fn end_slopes(shape: &TurnShape, end: &EndRow, chamber: usize, sign: f64) -> [Vec<DVec3>; SEGMENTS] {
     std::array::from_fn(|k| {
-        let rise = shape.rise(k, chamber);
-        let stations = shape.stations[k].iter().zip(rise);
-        let mut near = None;
+        let rises = shape.rise(k, chamber).into_iter().zip(shape.end_ring(k, chamber));
+        let stations = shape.stations[k].iter().zip(rises);
         stations
-            .map(|(&t, rise)| {
-                let (point, across) = (end.curves[k].point(t), end.across[k].point(t));
-                let q = near.or_else(|| shape.start_of(k, chamber)).unwrap_or_default();
-                let q = shape.chart.inverse(point, q).unwrap_or(q);
-                near = Some(q);
+            .map(|(&t, (rise, q))| {
+                let across = end.across[k].point(t);
                 let zeta = (shape.chart.map(q).slopes.inverse() * across).z;
                 across * (sign * rise / zeta * PI)
             })
@@ -133,7 +129,7 @@ fn share_corners(row: &mut [Vec<DVec3>; SEGMENTS]) {
     }
 }
 
-/// Greatest distance between surface and shape half way between the rings.
+/// Greatest distance of the shape half way between the rings from the surface, normal to it.
 fn deviation_between(
     shape: &TurnShape,
     k: usize,
@@ -145,7 +141,8 @@ fn deviation_between(
     for pair in parameters.windows(2) {
         let q = 0.5 * (pair[0] + pair[1]);
         for (&t, point) in shape.stations[k].iter().zip(shape.points(k, place(q))) {
-            worst = worst.max(surface.point(t, q).distance(point));
+            let (at, du, dv) = surface.first_derivatives(t, q);
+            worst = worst.max((point - at).dot(du.cross(dv).normalize_or_zero()).abs());
         }
     }
     worst
