@@ -91,3 +91,35 @@ fn measure() {
         }
     }
 }
+
+#[test]
+fn locate() {
+    let generated = built("rotor-serpentine.json");
+    let model = &generated.blade.model;
+    for (a, b) in [
+        ("turn/tip/pressure_side", "turn/tip/outer/fillet_pressure_side"),
+        ("turn/tip/suction_side", "turn/tip/outer/fillet_suction_side"),
+        ("turn/hub/outer/fillet_pressure_side", "turn/hub/outer"),
+        ("chamber/leading/pressure_side", "chamber/leading/leading_edge/pressure_side"),
+    ] {
+        let face = |n: &str| model.faces.iter().find(|f| f.name == n).unwrap();
+        let (fa, fb) = (face(a), face(b));
+        for ca in &fa.loops[0].coedges {
+            for cb in &fb.loops[0].coedges {
+                if ca.edge == cb.edge {
+                    let (s, e) = ca.pcurve.domain();
+                    let row: Vec<String> = (0..=24)
+                        .map(|i| {
+                            let t = s + (e - s) * f64::from(i) / 24.0;
+                            format!(
+                                "{:.3}",
+                                normal(fa, ca, t).cross(normal(fb, cb, t)).length().asin().to_degrees()
+                            )
+                        })
+                        .collect();
+                    println!("turn/ {a} {row:?}");
+                }
+            }
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use super::cap::{Ring, add_cap, points_up};
 use super::clearance;
 use super::error::BuildError;
-use super::passages::{Passage, PassageEnd, add_chambers};
+use super::passages::{Passage, PassageEnd, PassageParts, add_chambers};
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section};
 use super::style;
@@ -28,6 +28,8 @@ pub struct CooledBlade {
     pub closed_ends: Vec<(FaceId, usize)>,
     /// The stream surfaces of hub and tip.
     pub end_surfaces: [StreamSurface; 2],
+    /// What the passages consist of; radial holes are not among them.
+    pub passages: Vec<PassageParts>,
     /// The radial holes.
     pub radial_holes: Vec<RadialHoleGeometry>,
 }
@@ -67,14 +69,23 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
                     path: format!("radial_hole/{}", hole.name),
                 };
                 let ends = [end(lower, 0, 0.0), end(upper, 1, 1.0)];
-                passages.push(Passage { name: hole.name.clone(), faces, outward: true, ends });
+                passages.push(Passage {
+                    name: hole.name.clone(),
+                    faces,
+                    parts: Vec::new(),
+                    outward: true,
+                    ends,
+                });
             }
         }
     }
     let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
     let (end_faces, closed_ends) = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
+    let parts = passages.into_iter().filter(|p| !p.parts.is_empty());
+    let parts = parts.map(|p| PassageParts { name: p.name, parts: p.parts }).collect();
     Ok(CooledBlade {
         model,
+        passages: parts,
         outer_faces: outer.faces,
         passage_faces,
         end_faces,

@@ -21,5 +21,6 @@ mod turns;
 
 pub use assemble::{CooledBlade, build};
 pub use error::BuildError;
+pub use passages::{PassagePart, PassageParts};
 pub(crate) use probe::Probe;
 pub use radial_holes::RadialHoleGeometry;

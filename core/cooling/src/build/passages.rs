@@ -13,12 +13,36 @@ use crate::section::{ChamberRing, ClosureKind, Refusal, RingRequest, SEGMENTS, W
 use coolinggen_blade::{Blade, Fault};
 use coolinggen_brep::{FaceId, Model};
 
+/// The parts of a passage in the order in which the coolant runs through them.
+#[derive(Clone, Debug)]
+pub struct PassageParts {
+    /// Name of the passage.
+    pub name: String,
+    /// Chambers and turns.
+    pub parts: Vec<PassagePart>,
+}
+
+/// A chamber or a turn.
+#[derive(Clone, Debug)]
+pub struct PassagePart {
+    /// Path of its faces, e.g. `turn/a`.
+    pub path: String,
+    /// Whether it is a turn.
+    pub turn: bool,
+    /// Its eight faces in the order of the ring; the second parameter of their surfaces runs along the passage.
+    pub faces: Vec<FaceId>,
+    /// Whether that parameter runs against the coolant.
+    pub reversed: bool,
+}
+
 /// One passage: its faces and where it begins and ends.
 #[derive(Clone, Debug)]
 pub(super) struct Passage {
     /// Name of its coolant: that of its first chamber, or of the radial hole.
     pub(super) name: String,
     pub(super) faces: Vec<FaceId>,
+    /// Chambers and turns in order; none in a radial hole.
+    pub(super) parts: Vec<PassagePart>,
     /// Whether the faces' natural normals point out of the coolant.
     pub(super) outward: bool,
     /// Where the faces end: at the hub (side 0) or at the tip (side 1).
@@ -75,9 +99,20 @@ pub(super) fn add_chambers(
             let name = &plan.chambers[k].name;
             tubes.push(add_chamber(model, name, face_names(plan, k), sections, nodes)?);
         }
-        let mut faces: Vec<FaceId> = tubes.iter().flat_map(|t| t.faces.iter().copied()).collect();
-        for (i, &turn) in chain.turns.iter().enumerate() {
-            faces.extend(add_turn(model, &turns[turn], [&tubes[i], &tubes[i + 1]])?);
+        // A chamber ends where it has no turn; alone it ends at both sides.
+        let away = |turn: Option<&usize>| turn.map(|&t| 1 - plan.turns[t].side());
+        let sides = [away(chain.turns.first()).unwrap_or(0), away(chain.turns.last()).unwrap_or(1)];
+        let mut parts: Vec<PassagePart> = Vec::new();
+        let mut from = sides[0];
+        for (i, (&k, tube)) in chain.chambers.iter().zip(&tubes).enumerate() {
+            let (path, faces) = (format!("chamber/{}", plan.chambers[k].name), tube.faces.clone());
+            parts.push(PassagePart { path, turn: false, faces, reversed: from == 1 });
+            from = 1 - from;
+            if let Some(&t) = chain.turns.get(i) {
+                let faces = add_turn(model, &turns[t], [tube, &tubes[i + 1]])?;
+                let path = format!("turn/{}", plan.turns[t].name);
+                parts.push(PassagePart { path, turn: true, faces, reversed: plan.turns[t].side() == 0 });
+            }
         }
         let (first, last) = (chain.chambers[0], chain.chambers[chain.chambers.len() - 1]);
         let end = |k: usize, tube: &CutTube, side: usize| PassageEnd {
@@ -87,12 +122,10 @@ pub(super) fn add_chambers(
             name: plan.chambers[k].name.clone(),
             path: format!("chamber/{}", plan.chambers[k].name),
         };
-        // A chamber ends where it has no turn; alone it ends at both sides.
-        let away = |turn: Option<&usize>| turn.map(|&t| 1 - plan.turns[t].side());
-        let sides = [away(chain.turns.first()).unwrap_or(0), away(chain.turns.last()).unwrap_or(1)];
         passages.push(Passage {
             name: plan.chambers[first].name.clone(),
-            faces,
+            faces: parts.iter().flat_map(|p| p.faces.iter().copied()).collect(),
+            parts,
             // Chambers run round in the blade's own sense.
             outward: blade.outward,
             ends: [end(first, &tubes[0], sides[0]), end(last, &tubes[tubes.len() - 1], sides[1])],
