@@ -4,11 +4,12 @@ use super::cap::{Ring, add_cap, points_up};
 use super::clearance;
 use super::error::BuildError;
 use super::passages::{Passage, PassageEnd, PassageParts, add_chambers};
+use super::probe::Probe;
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section};
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
-use super::turns::{settled, sites};
+use super::turns::{ShellCheck, settled, sites};
 use crate::plan::Plan;
 use coolinggen_blade::{Blade, StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
@@ -50,7 +51,8 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         if let (Some(shell), false) = (&plan.shell, plan.chambers.is_empty()) {
             let stack = settled(blade, space, &grid, plan, shell)?;
             let turns = sites(&stack, plan)?;
-            (passages, polygons) = add_chambers(&mut model, blade, &stack, plan, &turns)?;
+            let check = ShellCheck { probe: Probe::new(blade), blade, space, shell };
+            (passages, polygons) = add_chambers(&mut model, blade, &stack, plan, &turns, &check)?;
         }
         if !plan.radial_holes.is_empty() {
             let sections = [Section::new(blade, space, &grid, 0.0)?, Section::new(blade, space, &grid, 1.0)?];

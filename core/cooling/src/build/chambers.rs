@@ -34,7 +34,7 @@ impl RingSection<'_> {
         let segments = self.ring.segments.iter();
         let points = segments.flat_map(|s| (0..STEPS).map(move |i| (s, i as f64 / STEPS as f64)));
         ChamberPolygon {
-            chamber: chamber.to_owned(),
+            part: format!("chamber \"{chamber}\""),
             stream: self.stream.clone(),
             points: points.map(|(s, t)| s.evaluate(self.outline, t).0).collect(),
         }

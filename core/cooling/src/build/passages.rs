@@ -7,7 +7,7 @@ use super::error::BuildError;
 use super::nodes::passage_nodes;
 use super::stack::Stack;
 use super::tube::CutTube;
-use super::turns::{TurnSite, add_turn};
+use super::turns::{ShellCheck, TurnSite, add_turn};
 use crate::plan::Plan;
 use crate::section::{ChamberRing, ClosureKind, Refusal, RingRequest, SEGMENTS, WallRequest, chamber_ring};
 use coolinggen_blade::{Blade, Fault};
@@ -27,8 +27,8 @@ pub struct PassageParts {
 pub struct PassagePart {
     /// Path of its faces, e.g. `turn/a`.
     pub path: String,
-    /// Whether it is a turn.
-    pub turn: bool,
+    /// For a turn, the side of the span where it lies: 0 the hub's, 1 the tip's.
+    pub turn: Option<usize>,
     /// Its eight faces in the order of the ring; the second parameter of their surfaces runs along the passage.
     pub faces: Vec<FaceId>,
     /// Whether that parameter runs against the coolant.
@@ -76,6 +76,7 @@ pub(super) fn add_chambers(
     stack: &Stack,
     plan: &Plan,
     turns: &[TurnSite<'_>],
+    check: &ShellCheck<'_>,
 ) -> Result<(Vec<Passage>, Vec<ChamberPolygon>), BuildError> {
     let mut refusals = Vec::new();
     let mut rings = Vec::with_capacity(plan.chambers.len());
@@ -106,12 +107,17 @@ pub(super) fn add_chambers(
         let mut from = sides[0];
         for (i, (&k, tube)) in chain.chambers.iter().zip(&tubes).enumerate() {
             let (path, faces) = (format!("chamber/{}", plan.chambers[k].name), tube.faces.clone());
-            parts.push(PassagePart { path, turn: false, faces, reversed: from == 1 });
+            parts.push(PassagePart { path, turn: None, faces, reversed: from == 1 });
             from = 1 - from;
             if let Some(&t) = chain.turns.get(i) {
-                let faces = add_turn(model, &turns[t], [tube, &tubes[i + 1]])?;
+                let faces = add_turn(model, &turns[t], [tube, &tubes[i + 1]], check)?;
                 let path = format!("turn/{}", plan.turns[t].name);
-                parts.push(PassagePart { path, turn: true, faces, reversed: plan.turns[t].side() == 0 });
+                parts.push(PassagePart {
+                    path,
+                    turn: Some(plan.turns[t].side()),
+                    faces,
+                    reversed: plan.turns[t].side() == 0,
+                });
             }
         }
         let (first, last) = (chain.chambers[0], chain.chambers[chain.chambers.len() - 1]);

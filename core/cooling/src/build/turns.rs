@@ -4,6 +4,7 @@ use super::chambers::column;
 use super::clearance::ChamberPolygon;
 use super::error::BuildError;
 use super::passages::ring_at;
+use super::probe::Probe;
 use super::sections::Grid;
 use super::spans::TurnSpan;
 use super::stack::Stack;
@@ -11,12 +12,12 @@ use super::style;
 use super::tube::CutTube;
 use crate::plan::{Plan, ShellPlan, TurnPlan};
 use crate::section::SEGMENTS;
-use crate::turn::{EndRow, TurnRefusal, TurnRequest, TurnSection, TurnShape, loft, mirrored};
-use coolinggen_blade::{Blade, Fault, StreamSpace};
+use crate::turn::{EndRow, PARTS, TurnRefusal, TurnRequest, TurnSection, TurnShape, loft, mirrored};
+use coolinggen_blade::{Blade, Fault, Region, StreamSpace};
 use coolinggen_brep::{
     Coedge, EdgeId, Face, FaceId, Loop, Model, SurfaceGeometry, VertexId, straight_pcurve,
 };
-use coolinggen_nurbs::{Curve, ParametricCurve, Surface};
+use coolinggen_nurbs::{Curve, ParametricCurve, ParametricSurface, Surface};
 use glam::DVec3;
 
 /// A turn with the sections it passes.
@@ -122,30 +123,68 @@ impl TurnSite<'_> {
             }
             TurnRefusal::FilletTooLarge { radius, greatest } => fault(&chamber).value(*radius).max(*greatest),
             TurnRefusal::NoSide { x } => fault(&turn).value(*x),
+            TurnRefusal::ThinShell { found, asked, .. } => fault(&turn).value(*found).min(*asked),
             TurnRefusal::Unmapped | TurnRefusal::Fold { .. } => fault(&turn),
         };
         BuildError::Refused(vec![fault])
     }
 
-    /// Outlines of both chambers in the turn's sections.
+    /// Outlines in the turn's sections: of the passage without its wall, where radial holes keep clear of it.
     pub(super) fn polygons(&self) -> Vec<ChamberPolygon> {
-        Vec::new()
+        const STEPS: u32 = 12;
+        let outline = |section: &TurnSection<'_>| {
+            let parts = [(0, [4, 5, 6, 7, 0]), (1, [0, 1, 2, 3, 4])];
+            let segments = parts.iter().flat_map(|(c, ks)| ks.iter().map(|&k| section.rings[*c].segments[k]));
+            let at = |i: u32| f64::from(i) / f64::from(STEPS);
+            segments.flat_map(|s| (0..STEPS).map(move |i| s.evaluate(section.outline, at(i)).0)).collect()
+        };
+        let polygon = |section: &TurnSection<'_>| ChamberPolygon {
+            part: format!("turn \"{}\"", self.plan.name),
+            stream: section.stream.clone(),
+            points: outline(section),
+        };
+        let inside = self.sections.len() - 1;
+        self.sections[..inside].iter().map(polygon).collect()
     }
 }
 
-/// Names of the eight faces.
-fn names(turn: &str) -> [String; SEGMENTS] {
-    [
-        "suction_side",
-        "inner/fillet_suction_side",
-        "inner",
-        "inner/fillet_pressure_side",
-        "pressure_side",
-        "outer/fillet_pressure_side",
-        "outer",
-        "outer/fillet_suction_side",
-    ]
-    .map(|part| format!("turn/{turn}/{part}"))
+/// How much thinner than asked the shell may be round a turn, relatively.
+const SHELL_TOLERANCE: f64 = 1e-3;
+
+/// Measures the shell round the turns' sides and outer closures in space.
+pub(super) struct ShellCheck<'a> {
+    pub(super) probe: Probe<'a>,
+    pub(super) blade: &'a Blade,
+    pub(super) space: &'a StreamSpace,
+    pub(super) shell: &'a ShellPlan,
+}
+
+impl ShellCheck<'_> {
+    /// The place where a turn comes nearest to the outer surface, if that is nearer than the shell allows.
+    fn thin(&self, surfaces: &[Surface<DVec3>; SEGMENTS]) -> Result<Option<TurnRefusal>, BuildError> {
+        const ACROSS: u32 = 6;
+        const ALONG: u32 = 12;
+        let mut worst: Option<(f64, TurnRefusal)> = None;
+        for k in [0, 4, 5, 6, 7] {
+            for (i, j) in (0..=ACROSS).flat_map(|i| (0..=ALONG).map(move |j| (i, j))) {
+                let at = surfaces[k].point(f64::from(i) / f64::from(ACROSS), f64::from(j) / f64::from(ALONG));
+                let foot = self.probe.foot(at)?;
+                let found = self.probe.thickness_at(at, &foot);
+                let v = self.space.span_fraction(at)?;
+                let (suction, pressure) = (self.shell.suction_side.at(v), self.shell.pressure_side.at(v));
+                let asked = match self.blade.region_at(foot.u) {
+                    Region::SuctionSide => suction,
+                    Region::PressureSide => pressure,
+                    Region::LeadingEdge | Region::TrailingEdge => suction.min(pressure),
+                };
+                let ratio = found / asked;
+                if ratio < 1.0 - SHELL_TOLERANCE && worst.as_ref().is_none_or(|(least, _)| ratio < *least) {
+                    worst = Some((ratio, TurnRefusal::ThinShell { part: PARTS[k], found, asked }));
+                }
+            }
+        }
+        Ok(worst.map(|(_, refusal)| refusal))
+    }
 }
 
 /// Adds the faces of a turn between its front and back chamber; their natural normals point as the chambers' do.
@@ -153,6 +192,7 @@ pub(super) fn add_turn(
     model: &mut Model,
     site: &TurnSite<'_>,
     chambers: [&CutTube; 2],
+    check: &ShellCheck<'_>,
 ) -> Result<Vec<FaceId>, BuildError> {
     let side = site.plan.side();
     let ends = [end_row(model, chambers[0], side, false)?, end_row(model, chambers[1], side, true)?];
@@ -160,6 +200,13 @@ pub(super) fn add_turn(
     // With q away from the front chamber's end at the tip, towards it at the hub, (t, q) turns as the chambers' (t, v).
     let first = 1 - side;
     let lofted = loft(&shape, &ends, first)?;
+    let refusal = match lofted.fold() {
+        None => check.thin(&lofted.surfaces)?,
+        folded => folded,
+    };
+    if let Some(refusal) = refusal {
+        return Err(site.refused(&refusal));
+    }
     // Edge of segment k in the end ring of a chamber, and whether it runs with t.
     let border = |chamber: usize, k: usize| {
         let segment = if chamber == 0 { k } else { mirrored(k) };
@@ -181,7 +228,8 @@ pub(super) fn add_turn(
         .collect::<Result<_, BuildError>>()?;
     let style = style::turn(&site.plan.name);
     let mut faces = Vec::with_capacity(SEGMENTS);
-    for (k, (surface, name)) in lofted.surfaces.into_iter().zip(names(&site.plan.name)).enumerate() {
+    for (k, (surface, part)) in lofted.surfaces.into_iter().zip(PARTS).enumerate() {
+        let name = format!("turn/{}/{part}", site.plan.name);
         let line = |from: [f64; 2], to: [f64; 2]| straight_pcurve(from.into(), to.into(), (0.0, 1.0));
         let ring = |chamber: usize, q: f64| {
             let (edge, with) = border(chamber, k);

@@ -52,7 +52,7 @@ pub(super) fn passage(model: &Model, name: &str, parts: &[PassagePart]) -> Resul
     let mut rings = Vec::new();
     let mut borders = vec![0];
     for part in parts {
-        let steps = if part.turn { TURN_STEPS } else { CHAMBER_STEPS };
+        let steps = if part.turn.is_some() { TURN_STEPS } else { CHAMBER_STEPS };
         let (_, (low, high)) = model.face(part.faces[0]).surface.domain();
         // Where parts meet their rings are one.
         for i in u32::from(!rings.is_empty())..=steps {

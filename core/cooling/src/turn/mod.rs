@@ -43,6 +43,18 @@ pub(crate) struct TurnSection<'a> {
     pub(crate) rings: [ChamberRing; 2],
 }
 
+/// Names of the eight segments.
+pub(crate) const PARTS: [&str; SEGMENTS] = [
+    "suction_side",
+    "inner/fillet_suction_side",
+    "inner",
+    "inner/fillet_pressure_side",
+    "pressure_side",
+    "outer/fillet_pressure_side",
+    "outer",
+    "outer/fillet_suction_side",
+];
+
 /// Segment of the back chamber's ring that continues segment `k` of the front chamber's; it runs the other way.
 pub(crate) fn mirrored(k: usize) -> usize {
     (SEGMENTS - k) % SEGMENTS

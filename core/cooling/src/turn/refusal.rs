@@ -31,6 +31,15 @@ pub(crate) enum TurnRefusal {
         /// Name of the segment.
         part: &'static str,
     },
+    /// The turn comes nearer to the outer surface than the shell allows.
+    ThinShell {
+        /// Name of the segment.
+        part: &'static str,
+        /// Metal left.
+        found: f64,
+        /// Metal asked for.
+        asked: f64,
+    },
 }
 
 impl fmt::Display for TurnRefusal {
@@ -48,6 +57,10 @@ impl fmt::Display for TurnRefusal {
                 write!(f, "{x:.3} mm from the wall the turn meets no side of the shell at the wall's angle")
             }
             Self::Unmapped => write!(f, "the shape between the shell's sides is too uneven for a turn"),
+            Self::ThinShell { part, found, asked } => write!(
+                f,
+                "the turn's {part} leaves {found:.4} mm of metal to the outer surface, {asked:.4} mm are asked for"
+            ),
             Self::Fold { part } => write!(f, "the turn's {part} folds over"),
         }
     }

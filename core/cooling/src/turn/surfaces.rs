@@ -1,6 +1,7 @@
 //! The eight surfaces of a turn: lofts of its rings between the chambers' own end rings.
 
 use super::shape::{STENCIL, TurnShape};
+use super::{PARTS, TurnRefusal};
 use crate::build::BuildError;
 use crate::section::SEGMENTS;
 use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve, ParametricSurface, Surface};
@@ -41,6 +42,27 @@ pub(crate) fn loft(shape: &TurnShape, ends: &[EndRow; 2], first: usize) -> Resul
         }
         rows *= 2;
     }
+}
+
+impl TurnSurfaces {
+    /// A surface that folds over: one whose normal turns by a right angle or more between neighbours of a grid.
+    pub(crate) fn fold(&self) -> Option<TurnRefusal> {
+        self.surfaces.iter().zip(PARTS).find(|(s, _)| folds(s)).map(|(_, part)| TurnRefusal::Fold { part })
+    }
+}
+
+fn folds(surface: &Surface<DVec3>) -> bool {
+    const ACROSS: u32 = 16;
+    let along = surface.breaks_v();
+    let normal = |i: u32, v: f64| {
+        let (_, du, dv) = surface.first_derivatives(f64::from(i) / f64::from(ACROSS), v);
+        du.cross(dv)
+    };
+    let rows: Vec<Vec<DVec3>> = along.iter().map(|&v| (0..=ACROSS).map(|i| normal(i, v)).collect()).collect();
+    // Written so that NaN counts as a fold.
+    let turns = |a: &DVec3, b: &DVec3| !(a.dot(*b) > 0.0);
+    rows.iter().any(|row| row.windows(2).any(|p| turns(&p[0], &p[1])))
+        || rows.windows(2).any(|pair| pair[0].iter().zip(&pair[1]).any(|(a, b)| turns(a, b)))
 }
 
 /// Values of a segment's curve at the nodes with the slopes at both ends, from values at its stations.
