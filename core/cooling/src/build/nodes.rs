@@ -130,14 +130,15 @@ impl Nodes {
 /// judged.
 pub(super) fn passage_nodes(chambers: &[&[RingSection<'_>]]) -> Result<Vec<[Nodes; SEGMENTS]>, BuildError> {
     // A turn joins segment k to the mirrored one of the next chamber, run through the other way.
-    let place = |chamber: usize, k: usize| if chamber % 2 == 0 { k } else { mirrored(k) };
+    let turned = |chamber: usize| !chamber.is_multiple_of(2);
+    let place = |chamber: usize, k: usize| if turned(chamber) { mirrored(k) } else { k };
     let mut all: Vec<Vec<Nodes>> = vec![Vec::with_capacity(SEGMENTS); chambers.len()];
     let mut joined = Vec::with_capacity(SEGMENTS);
     for k in 0..SEGMENTS {
         let mut strands = Vec::new();
         for (chamber, sections) in chambers.iter().enumerate() {
             for i in [0, sections.len() / 2, sections.len() - 1] {
-                let (segment, reversed) = (place(chamber, k), chamber % 2 == 1);
+                let (segment, reversed) = (place(chamber, k), turned(chamber));
                 strands.push(Strand { section: &sections[i], segment, reversed });
             }
         }
@@ -146,7 +147,7 @@ pub(super) fn passage_nodes(chambers: &[&[RingSection<'_>]]) -> Result<Vec<[Node
     for (chamber, nodes) in all.iter_mut().enumerate() {
         for k in 0..SEGMENTS {
             let own = &joined[place(chamber, k)];
-            nodes.push(if chamber % 2 == 1 { own.reversed()? } else { own.clone() });
+            nodes.push(if turned(chamber) { own.reversed()? } else { own.clone() });
         }
     }
     let array = |nodes: Vec<Nodes>| nodes.try_into().unwrap_or_else(|_| unreachable!("nodes a segment"));

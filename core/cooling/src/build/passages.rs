@@ -158,14 +158,14 @@ fn chamber_rings<'s>(stack: &'s Stack, plan: &Plan, k: usize) -> (Vec<RingSectio
                 outline: &stack.offsets[i].outline,
                 ring,
             }),
-            Err(fault) => refusals.push(fault),
+            Err(fault) => refusals.push(*fault),
         }
     }
     (rings, refusals)
 }
 
 /// The ring of chamber `k` in section `i`, or what is refused.
-pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Fault> {
+pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Box<Fault>> {
     let offset = &stack.offsets[i];
     let [front, back] = closures(stack, plan, k, i);
     let request = RingRequest { outline: &offset.outline, camber: &offset.camber, front, back };
@@ -175,7 +175,7 @@ pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<
     };
     ring.map_err(|refusal| {
         let at = blame(&format!("/cooling/chambers/{k}"), &refusal);
-        BuildError::fault(&at, stack.sections[i].stream.v(), &refusal)
+        Box::new(BuildError::fault(&at, stack.sections[i].stream.v(), &refusal))
     })
 }
 

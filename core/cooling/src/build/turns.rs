@@ -39,7 +39,7 @@ pub(super) fn sites<'a>(stack: &'a Stack, plan: &'a Plan) -> Result<Vec<TurnSite
             let (section, line) = (&stack.sections[i], &stack.walls[turn.front][i]);
             let rings = [turn.front, turn.front + 1].map(|k| ring_at(stack, plan, k, i));
             let [Ok(front), Ok(back)] = rings else {
-                faults.extend(rings.into_iter().filter_map(Result::err));
+                faults.extend(rings.into_iter().filter_map(Result::err).map(|fault| *fault));
                 continue;
             };
             sections.push(TurnSection {

@@ -5,13 +5,17 @@ use crate::section::{Outline, Segment, angle_between};
 use coolinggen_nurbs::ParametricCurve;
 use glam::DVec2;
 
-/// A side of the shell's inner outline between the chambers' far ends, continued beyond them by its Taylor polynomial of
-/// second order: round a nose the outline itself turns away.
+/// A side of the shell's inner outline between the chambers' far ends. Round a nose the outline itself turns away; the
+/// side goes on along its tangent there, with a curvature that fades out after [`TURNED`]: twice continuously
+/// differentiable, and the two sides of a nose do not meet before its end, since tangents of a circle do not.
 struct Side<'a> {
     outline: &'a Outline,
     low: f64,
     high: f64,
 }
+
+/// How far a continued side may turn, radians.
+const TURNED: f64 = 0.1;
 
 impl Side<'_> {
     fn at(&self, u: f64) -> (DVec2, DVec2) {
@@ -20,7 +24,14 @@ impl Side<'_> {
         let near = u.clamp(self.low + inside, self.high - inside);
         let [p, d, dd] = self.outline.curve().derivatives(near);
         let e = u - near;
-        (p + d * e + dd * (0.5 * e * e), d + dd * e)
+        if e == 0.0 {
+            return (p, d);
+        }
+        // dd fades as exp(-|e| / reach).
+        let reach = TURNED * d.length_squared() / d.perp_dot(dd).abs();
+        let reach = reach.min(10.0 * (self.high - self.low));
+        let faded = -(-e.abs() / reach).exp_m1() * reach;
+        (p + d * e + dd * (reach * (e.abs() - faded)), d + dd * (faded * e.signum()))
     }
 }
 
