@@ -121,6 +121,9 @@ fn add_blade(model: &mut Model, blade: &Blade, ends: [&StreamSurface; 2]) -> Res
     add_tube(model, patches, ends)
 }
 
+/// Hub and tip face, and the faces that close passages with their sides of the span.
+type EndFaces = ([FaceId; 2], Vec<(FaceId, usize)>);
+
 /// Caps and solids; answers with hub and tip face and the faces of closed ends.
 fn add_solids(
     model: &mut Model,
@@ -129,7 +132,7 @@ fn add_solids(
     ends: &[StreamSurface; 2],
     outer: &CutTube,
     passages: &[Passage],
-) -> Result<([FaceId; 2], Vec<(FaceId, usize)>), BuildError> {
+) -> Result<EndFaces, BuildError> {
     let mut closed_ends = Vec::new();
     let mut metal = Shell::default();
     let mut voids = Vec::new();

@@ -10,9 +10,9 @@ use glam::{DMat3, DVec2, DVec3};
 /// in the conformal chart, nearly so in space.
 const FRACTIONS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// Spacing of the fibres, mm, and the least number of them.
-const SPACING: f64 = 0.4;
-const LEAST_FIBRES: usize = 40;
+/// Gaps between the fibres. Offsets of measured blades carry jumps of curvature; where a fillet touches a side, the map
+/// must have the side's own tangent.
+const FIBRE_GAPS: usize = 300;
 
 /// The box (x, eta, zeta) and its map: splines of degree 3 in x and zeta through exact points, of degree 4 in eta.
 #[derive(Clone, Debug)]
@@ -42,9 +42,8 @@ impl TurnChart {
             None => return Ok(Err(TurnRefusal::Unmapped)),
         };
         let margin = 0.02 * (high - low);
-        let spans = (((high - low) / SPACING) as usize).max(LEAST_FIBRES);
-        let xs: Vec<f64> = (0..=spans)
-            .map(|i| low - margin + (high - low + 2.0 * margin) * i as f64 / spans as f64)
+        let xs: Vec<f64> = (0..=FIBRE_GAPS)
+            .map(|i| low - margin + (high - low + 2.0 * margin) * i as f64 / FIBRE_GAPS as f64)
             .collect();
         let levels = levels(sections)?;
         let (along, across) = (Interpolator::new(3, &xs)?, Interpolator::new(3, &levels)?);
