@@ -10,5 +10,6 @@ mod generate;
 pub mod plan;
 pub mod report;
 pub mod section;
+mod turn;
 
 pub use generate::{Generated, generate};

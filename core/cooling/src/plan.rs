@@ -1,5 +1,9 @@
 //! The plan: a design's cooling with its laws made ready and everything checked that needs no geometry.
 
+mod turns;
+
+pub use turns::{Chain, TurnPlan};
+
 use crate::design::{Chamber, Cooling, FilmRow, HolePlacement, HoleShape, Side, SlotRow};
 use coolinggen_blade::{Fault, Law, LawSpec, Pointer};
 use std::collections::HashSet;
@@ -13,6 +17,8 @@ pub struct Plan {
     pub walls: Vec<WallPlan>,
     /// Chambers from front to back, one more than walls, or none.
     pub chambers: Vec<ChamberPlan>,
+    /// Turns, in the design's order.
+    pub turns: Vec<TurnPlan>,
     /// Radial holes.
     pub radial_holes: Vec<RadialHolePlan>,
     /// Rows of film holes.
@@ -32,6 +38,8 @@ pub struct ShellPlan {
     pub pressure_side: Law,
     /// At the tip, mm.
     pub tip: Option<f64>,
+    /// At the hub, for turns, mm.
+    pub hub: Option<f64>,
 }
 
 /// A wall; see [`crate::design::Wall`].
@@ -191,6 +199,7 @@ impl Maker {
                 suction_side: self.law(&shell.suction_side, &at.at("suction_side")),
                 pressure_side: self.law(&shell.pressure_side, &at.at("pressure_side")),
                 tip: shell.tip,
+                hub: shell.hub.or(shell.tip),
             }
         });
         if shell.is_none() && !cooling.chambers.is_empty() {
@@ -199,9 +208,11 @@ impl Maker {
         }
         self.unique(cooling.walls.iter().map(|w| w.name.as_str()), &root.at("walls"));
         self.unique(cooling.chambers.iter().map(|c| c.name.as_str()), &root.at("chambers"));
+        self.unique(cooling.turns.iter().map(|t| t.name.as_str()), &root.at("turns"));
         self.unique(cooling.radial_holes.iter().map(|h| h.name.as_str()), &root.at("radial_holes"));
         let walls = self.walls(cooling, &root.at("walls"));
         let chambers = self.chambers(cooling, &root.at("chambers"));
+        let turns = self.turns(cooling, &chambers, &root.at("turns"));
         let radial_holes = self.radial_holes(cooling, &root.at("radial_holes"));
         self.unique(cooling.film_rows.iter().map(|r| r.name.as_str()), &root.at("film_rows"));
         let film_rows = self.film_rows(cooling, &root.at("film_rows"));
@@ -213,7 +224,7 @@ impl Maker {
             })
             .collect();
         let least_ligament = cooling.least_ligament;
-        Plan { shell, walls, chambers, radial_holes, film_rows, slot_rows, least_ligament }
+        Plan { shell, walls, chambers, turns, radial_holes, film_rows, slot_rows, least_ligament }
     }
 
     /// None, with faults, where the row's number is not said once.

@@ -5,15 +5,16 @@ use super::cap::{Ring, add_cap, points_up};
 use super::clearance::{self, ChamberPolygon};
 use super::error::BuildError;
 use super::film::{FilmHoleGeometry, add_film_rows};
-use super::passages::{Passage, add_chambers};
+use super::passages::{Passage, PassageEnd, PassageParts, add_chambers};
 use super::pointed::add_pointed_tube;
+use super::probe::Probe;
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section, span_fractions};
 use super::sides::Sides;
 use super::slots::{SlotGeometry, add_slot_rows};
-use super::stack::Stack;
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
+use super::turns::{ShellCheck, settled, sites};
 use crate::plan::Plan;
 use coolinggen_blade::{Blade, Fault, StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
@@ -33,6 +34,8 @@ pub struct CooledBlade {
     pub closed_ends: Vec<(FaceId, usize)>,
     /// The stream surfaces of hub and tip.
     pub end_surfaces: [StreamSurface; 2],
+    /// What the passages consist of; radial holes are not among them.
+    pub passages: Vec<PassageParts>,
     /// The radial holes.
     pub radial_holes: Vec<RadialHoleGeometry>,
     /// The film holes, row by row.
@@ -61,8 +64,11 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         let (mut sections, mut tails) = (Vec::new(), Vec::new());
         if let (Some(shell), false) = (&plan.shell, plan.chambers.is_empty()) {
             let blamed = |e: BuildError| e.blamed_on("/cooling/chambers");
-            let stack = Stack::new(blade, space, &grid, plan, shell).map_err(blamed)?;
-            (passages, polygons) = add_chambers(&mut model, blade, &stack, plan).map_err(blamed)?;
+            let stack = settled(blade, space, &grid, plan, shell).map_err(blamed)?;
+            let turns = sites(&stack, plan).map_err(blamed)?;
+            let check = ShellCheck { probe: Probe::new(blade), blade, space, shell };
+            (passages, polygons) =
+                add_chambers(&mut model, blade, &stack, plan, &turns, &check).map_err(blamed)?;
             tails = stack.tails();
             sections = stack.sections;
         }
@@ -87,11 +93,14 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     }
     let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
     let caps = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
+    let parts = passages.into_iter().filter(|p| !p.parts.is_empty());
+    let parts = parts.map(|p| PassageParts { name: p.name, parts: p.parts }).collect();
     let mut outer_faces = outer.faces;
     outer_faces.extend(film_holes.iter().flat_map(|hole| &hole.exits));
     outer_faces.extend(slots.iter().flat_map(|slot| &slot.exits));
     Ok(CooledBlade {
         model,
+        passages: parts,
         outer_faces,
         passage_faces,
         end_faces: caps.open,
@@ -128,13 +137,20 @@ fn add_radial_holes(
     let passages = holes.iter().enumerate().map(|(k, hole)| {
         let tube = patches(hole).and_then(|p| add_tube(model, p, [&ends[0], &ends[1]]));
         let CutTube { faces, rings } = tube.map_err(|e| e.blamed_on(&radial_hole_pointer(k)))?;
-        Ok(Passage {
+        let [lower, upper] = rings;
+        let end = |ring, side, v| PassageEnd {
+            ring,
+            side,
+            v,
             name: hole.name.clone(),
             path: format!("radial_hole/{}", hole.name),
+        };
+        Ok(Passage {
+            name: hole.name.clone(),
             faces,
-            rings,
+            parts: Vec::new(),
             outward: true,
-            span: [0.0, 1.0],
+            ends: [end(lower, 0, 0.0), end(upper, 1, 1.0)],
             branches: Vec::new(),
         })
     });
@@ -207,29 +223,32 @@ fn add_solids(
             coolant.faces.extend(faces.map(|&(face, outward)| FaceUse { face, forward: outward }));
             coolant.faces.extend(&branch.ends);
         }
-        let open = [passage.span[0] == 0.0, passage.span[1] == 1.0];
-        let count = open.iter().filter(|open| **open).count()
+        let both_open = passage.ends.iter().all(PassageEnd::is_open);
+        let count = passage.ends.iter().filter(|end| end.is_open()).count()
             + passage.branches.iter().filter(|b| !b.ends.is_empty()).count();
-        for side in [0, 1] {
-            let up_is_out = side == 1;
+        let one_side = passage.ends[0].side == passage.ends[1].side;
+        for (i, end) in passage.ends.iter().enumerate() {
+            let (open, side) = (end.is_open(), end.side);
             let middle;
-            let stream = if open[side] {
+            let stream = if open {
                 &ends[side]
             } else {
-                middle = space.surface(passage.span[side])?;
+                middle = space.surface(end.v)?;
                 &middle
             };
-            let (name, style) = match (open[side], side) {
-                (true, 0) => (format!("coolant/inlet/{}", passage.name), style::inlet()),
-                (true, _) => (format!("coolant/outlet/{}", passage.name), style::outlet()),
-                (false, 0) => (format!("{}/hub_end", passage.path), style::chamber(&passage.name)),
-                (false, _) => (format!("{}/tip_end", passage.path), style::chamber(&passage.name)),
+            // Where both ends open on one side, the first chamber's is the inlet.
+            let enters = if both_open && one_side { i == 0 } else { side == 0 };
+            let (name, style) = match (open, enters, side) {
+                (true, true, _) => (format!("coolant/inlet/{}", end.name), style::inlet()),
+                (true, false, _) => (format!("coolant/outlet/{}", end.name), style::outlet()),
+                (false, _, 0) => (format!("{}/hub_end", end.path), style::chamber(&end.name)),
+                (false, _, _) => (format!("{}/tip_end", end.path), style::chamber(&end.name)),
             };
-            let cap = add_cap(model, name, style, stream, &passage.rings[side], &[])?;
-            let forward = points_up(model, cap, stream) == up_is_out;
+            let cap = add_cap(model, name, style, stream, &end.ring, &[])?;
+            let forward = points_up(model, cap, stream) == (side == 1);
             coolant.faces.push(FaceUse { face: cap, forward });
-            if open[side] {
-                openings[side].push(passage.rings[side].clone());
+            if open {
+                openings[side].push(end.ring.clone());
             } else {
                 own.faces.push(FaceUse { face: cap, forward: !forward });
                 closed_ends.push((cap, side));

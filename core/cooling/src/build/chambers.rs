@@ -3,12 +3,13 @@
 use super::cap::Ring;
 use super::clearance::ChamberPolygon;
 use super::error::BuildError;
+use super::nodes::{Nodes, Strand};
 use super::style;
 use super::tube::CutTube;
 use crate::section::{ChamberRing, Outline, SEGMENTS};
 use coolinggen_blade::StreamSurface;
 use coolinggen_brep::{Coedge, EdgeId, Face, Loop, Model, SurfaceGeometry, VertexId, straight_pcurve};
-use coolinggen_nurbs::{Curve, Interpolator, NurbsError, ParametricCurve, Surface};
+use coolinggen_nurbs::{Curve, Interpolator, Surface};
 use glam::{DVec2, DVec3};
 
 /// A chamber's ring on one stream surface.
@@ -21,7 +22,7 @@ pub(super) struct RingSection<'a> {
 
 impl RingSection<'_> {
     /// Point of segment `k` at `t` in space, with its derivative.
-    fn evaluate(&self, k: usize, t: f64) -> (DVec3, DVec3) {
+    pub(super) fn evaluate(&self, k: usize, t: f64) -> (DVec3, DVec3) {
         let (q, dq) = self.ring.segments[k].evaluate(self.outline, t);
         let (point, dm, dt) = self.stream.to_space_derivatives(q);
         (point, dm * dq.x + dt * dq.y)
@@ -33,20 +34,12 @@ impl RingSection<'_> {
         let segments = self.ring.segments.iter();
         let points = segments.flat_map(|s| (0..STEPS).map(move |i| (s, i as f64 / STEPS as f64)));
         ChamberPolygon {
-            chamber: chamber.to_owned(),
+            part: format!("chamber \"{chamber}\""),
             stream: self.stream.clone(),
             points: points.map(|(s, t)| s.evaluate(self.outline, t).0).collect(),
         }
     }
 }
-
-/// How far a section curve may lie from the exact one and from its stream surface between nodes, mm.
-const SHAPE_TOLERANCE: f64 = 2e-7;
-const EDGE_TOLERANCE: f64 = 1e-8;
-/// Most spans of equal length.
-const MOST_EQUAL_SPANS: usize = 128;
-/// Spans at which to give up.
-const MOST_SPANS: usize = 1000;
 
 /// Names of the eight faces, from those of the front and the back closure.
 pub(super) fn segment_names(chamber: &str, front: &str, back: &str) -> [String; SEGMENTS] {
@@ -69,6 +62,7 @@ pub(super) fn add_chamber(
     chamber: &str,
     names: [String; SEGMENTS],
     sections: &[RingSection<'_>],
+    nodes: &[Nodes; SEGMENTS],
 ) -> Result<CutTube, BuildError> {
     let vs: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
     let across = Interpolator::new(3, &vs)?;
@@ -77,9 +71,9 @@ pub(super) fn add_chamber(
         sections.iter().map(|s| std::array::from_fn(|k| s.evaluate(k, 0.0).0)).collect();
     let mut surfaces: Vec<Surface<DVec3>> = Vec::with_capacity(SEGMENTS);
     for k in 0..SEGMENTS {
-        let along = section_interpolator(sections, k)?;
         let curves = sections.iter().zip(&corners).map(|(section, corner)| {
-            section_curve(&along, section, k, Some((corner[k], corner[(k + 1) % SEGMENTS])))
+            let strand = Strand { section, segment: k, reversed: false };
+            nodes[k].curve(&strand, Some((corner[k], corner[(k + 1) % SEGMENTS])))
         });
         surfaces.push(across.loft(&curves.collect::<Result<Vec<_>, _>>()?)?);
     }
@@ -128,95 +122,8 @@ pub(super) fn add_chamber(
 }
 
 /// The curve of the control points in column `j`: the border of a clamped surface.
-fn column(surface: &Surface<DVec3>, j: usize) -> Result<Curve<DVec3>, BuildError> {
+pub(super) fn column(surface: &Surface<DVec3>, j: usize) -> Result<Curve<DVec3>, BuildError> {
     let (_, count) = surface.counts();
     let points = surface.points().iter().skip(j).step_by(count).copied().collect();
     Ok(Curve::new(surface.knots_u().clone(), points)?)
-}
-
-/// The cubic through points of segment `k`, with its exact end slopes.
-fn section_curve(
-    along: &Nodes,
-    section: &RingSection<'_>,
-    k: usize,
-    ends: Option<(DVec3, DVec3)>,
-) -> Result<Curve<DVec3>, BuildError> {
-    let mut points: Vec<DVec3> = along.parameters.iter().map(|&t| section.evaluate(k, t).0).collect();
-    if let Some((start, end)) = ends {
-        let last = points.len() - 1;
-        (points[0], points[last]) = (start, end);
-    }
-    let (start, end) = (section.evaluate(k, 0.0).1, section.evaluate(k, 1.0).1);
-    Ok(along.interpolator.curve_with_slopes(&points, start, end)?)
-}
-
-/// Increasing parameters in [0, 1] and the cubic interpolation over them.
-struct Nodes {
-    parameters: Vec<f64>,
-    interpolator: Interpolator,
-}
-
-impl Nodes {
-    fn new(parameters: Vec<f64>) -> Result<Self, BuildError> {
-        let interpolator = Interpolator::with_slopes(&parameters)?;
-        Ok(Self { parameters, interpolator })
-    }
-
-    fn equal(spans: usize) -> Result<Self, BuildError> {
-        Self::new((0..=spans).map(|i| i as f64 / spans as f64).collect())
-    }
-
-    /// Errors of segment `k` of the judged sections in the middle of each span, relative to the tolerances.
-    fn errors(&self, judged: &[&RingSection<'_>], k: usize) -> Result<Vec<f64>, BuildError> {
-        let mut worst = vec![0.0f64; self.parameters.len() - 1];
-        for section in judged {
-            let curve = section_curve(self, section, k, None)?;
-            for (pair, worst) in self.parameters.windows(2).zip(&mut worst) {
-                let t = 0.5 * (pair[0] + pair[1]);
-                let (point, exact) = (curve.point(t), section.evaluate(k, t).0);
-                let (level, gradient) = section.stream.level(point);
-                let off = level.abs() / gradient.length();
-                *worst = worst.max(point.distance(exact) / SHAPE_TOLERANCE).max(off / EDGE_TOLERANCE);
-            }
-        }
-        Ok(worst)
-    }
-
-    /// The spans with an error above 1 cut into halves.
-    fn refined(&self, errors: &[f64]) -> Result<Self, BuildError> {
-        let mut parameters = vec![self.parameters[0]];
-        for (pair, error) in self.parameters.windows(2).zip(errors) {
-            if *error > 1.0 {
-                parameters.push(0.5 * (pair[0] + pair[1]));
-            }
-            parameters.push(pair[1]);
-        }
-        Self::new(parameters)
-    }
-}
-
-/// As few spans as keep segment `k` of the first, middle and last section within the tolerances. Equal spans while
-/// that is cheap: the error falls with the fourth power of the step, so two trials tell. Then halves where it misses,
-/// which is where the outline's third derivative jumps.
-fn section_interpolator(sections: &[RingSection<'_>], k: usize) -> Result<Nodes, BuildError> {
-    let judged = [0, sections.len() / 2, sections.len() - 1].map(|i| &sections[i]);
-    let mut nodes = Nodes::equal(6)?;
-    loop {
-        let errors = nodes.errors(&judged, k)?;
-        let ratio = errors.iter().fold(0.0, |a: f64, b| a.max(*b));
-        if ratio <= 1.0 {
-            return Ok(nodes);
-        }
-        let spans = errors.len();
-        let wanted = ((spans as f64 * 1.05 * ratio.powf(0.25)).ceil() as usize).max(spans + 1);
-        nodes = if spans < MOST_EQUAL_SPANS {
-            Nodes::equal(wanted.min(MOST_EQUAL_SPANS))?
-        } else if spans < MOST_SPANS {
-            nodes.refined(&errors)?
-        } else {
-            return Err(
-                NurbsError::NotFound { what: "a cubic for a chamber's section within 1e-8 mm" }.into()
-            );
-        };
-    }
 }

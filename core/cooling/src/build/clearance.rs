@@ -6,10 +6,11 @@ use super::radial_holes::RadialHoleGeometry;
 use coolinggen_blade::{Blade, Fault, StreamSurface};
 use glam::{DVec2, DVec3};
 
-/// A chamber's ring on one stream surface, as a polygon in its chart.
+/// The ring of a chamber or turn on one stream surface, as a polygon in its chart.
 #[derive(Clone, Debug)]
 pub(super) struct ChamberPolygon {
-    pub(super) chamber: String,
+    /// What it belongs to, as messages say it.
+    pub(super) part: String,
     pub(super) stream: StreamSurface,
     pub(super) points: Vec<DVec2>,
 }
@@ -54,9 +55,9 @@ pub(super) fn check(
         if let Some((chamber, gap)) = met.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, gap)| !(*gap > 0.0))
         {
             let message = format!(
-                "radial hole \"{}\" meets chamber \"{}\" by {:.3} mm at span fraction {:.2}",
+                "radial hole \"{}\" meets {} by {:.3} mm at span fraction {:.2}",
                 hole.name,
-                chamber.chamber,
+                chamber.part,
                 -gap,
                 chamber.stream.v()
             );

@@ -1,31 +1,68 @@
-//! What the coolant flows through: chambers and radial holes, as faces with their end rings.
+//! What the coolant flows through: chains of chambers and turns, and radial holes, as faces with their end rings.
 
 use super::cap::Ring;
 use super::chambers::{RingSection, add_chamber, segment_names};
 use super::clearance::ChamberPolygon;
 use super::error::BuildError;
+use super::nodes::passage_nodes;
 use super::stack::Stack;
+use super::tube::CutTube;
+use super::turns::{ShellCheck, TurnSite, add_turn};
 use crate::plan::Plan;
-use crate::section::{ClosureKind, Refusal, RingRequest, WallRequest, chamber_ring};
+use crate::section::{ChamberRing, ClosureKind, Refusal, RingRequest, SEGMENTS, WallRequest, chamber_ring};
 use coolinggen_blade::{Blade, Fault};
 use coolinggen_brep::{FaceId, FaceUse, Model};
+
+/// The parts of a passage in the order in which the coolant runs through them.
+#[derive(Clone, Debug)]
+pub struct PassageParts {
+    /// Name of the passage.
+    pub name: String,
+    /// Chambers and turns.
+    pub parts: Vec<PassagePart>,
+}
+
+/// A chamber or a turn.
+#[derive(Clone, Debug)]
+pub struct PassagePart {
+    /// Path of its faces, e.g. `turn/a`.
+    pub path: String,
+    /// For a turn, the side of the span where it lies: 0 the hub's, 1 the tip's.
+    pub turn: Option<usize>,
+    /// Its eight faces in the order of the ring; the second parameter of their surfaces runs along the passage.
+    pub faces: Vec<FaceId>,
+    /// Whether that parameter runs against the coolant.
+    pub reversed: bool,
+}
 
 /// One passage: its faces and where it begins and ends.
 #[derive(Clone, Debug)]
 pub(super) struct Passage {
-    /// Path of the passage in names, e.g. `leading`.
+    /// Name of its coolant: that of its first chamber, or of the radial hole.
+    pub(super) name: String,
+    pub(super) faces: Vec<FaceId>,
+    /// Chambers and turns in order; none in a radial hole.
+    pub(super) parts: Vec<PassagePart>,
+    /// Whether the faces' natural normals point out of the coolant.
+    pub(super) outward: bool,
+    /// Where the faces end: at the hub (side 0) or at the tip (side 1).
+    pub(super) ends: [PassageEnd; 2],
+    /// Bores that leave it.
+    pub(super) branches: Vec<Branch>,
+}
+
+/// An end of a passage.
+#[derive(Clone, Debug)]
+pub(super) struct PassageEnd {
+    pub(super) ring: Ring,
+    /// Side of the span: 0 the hub's, 1 the tip's.
+    pub(super) side: usize,
+    /// Span fraction of the ring; 0 is open at the hub, 1 at the tip.
+    pub(super) v: f64,
+    /// Name of the chamber or hole that ends here.
     pub(super) name: String,
     /// Path of its faces, e.g. `chamber/leading`.
     pub(super) path: String,
-    pub(super) faces: Vec<FaceId>,
-    /// Whether the faces' natural normals point out of the coolant.
-    pub(super) outward: bool,
-    /// Lower and upper ring.
-    pub(super) rings: [Ring; 2],
-    /// Span fractions of the rings; 0 is open at the hub, 1 at the tip.
-    pub(super) span: [f64; 2],
-    /// Bores that leave it.
-    pub(super) branches: Vec<Branch>,
 }
 
 /// A bore that leaves a passage.
@@ -37,65 +74,123 @@ pub(super) struct Branch {
     pub(super) ends: Vec<FaceUse>,
 }
 
-/// Builds all chambers and adds their faces to the model; answers with their rings as polygons, too.
+impl PassageEnd {
+    pub(super) fn is_open(&self) -> bool {
+        self.v == [0.0, 1.0][self.side]
+    }
+}
+
+/// Builds all chambers and turns and adds their faces to the model; answers with their rings as polygons, too.
 pub(super) fn add_chambers(
     model: &mut Model,
     blade: &Blade,
     stack: &Stack,
     plan: &Plan,
+    turns: &[TurnSite<'_>],
+    check: &ShellCheck<'_>,
 ) -> Result<(Vec<Passage>, Vec<ChamberPolygon>), BuildError> {
     let mut refusals = Vec::new();
-    let mut passages = Vec::new();
-    let mut polygons = Vec::new();
-    for (k, chamber) in plan.chambers.iter().enumerate() {
-        let (rings, refused) = chamber_rings(stack, plan, k);
+    let mut rings = Vec::with_capacity(plan.chambers.len());
+    for k in 0..plan.chambers.len() {
+        let (found, refused) = chamber_rings(stack, plan, k);
+        rings.push(found);
         refusals.extend(refused);
-        if !refusals.is_empty() {
-            continue;
+    }
+    if !refusals.is_empty() {
+        return Err(BuildError::worst(refusals));
+    }
+    let polygons = plan.chambers.iter().zip(&rings);
+    let polygons = polygons.flat_map(|(c, rings)| rings.iter().map(|ring| ring.polygon(&c.name)));
+    let polygons = polygons.chain(turns.iter().flat_map(TurnSite::polygons)).collect();
+    let mut passages = Vec::new();
+    for chain in plan.chains() {
+        let sections: Vec<&[RingSection<'_>]> = chain.chambers.iter().map(|&k| &rings[k][..]).collect();
+        let nodes = passage_nodes(&sections)?;
+        let mut tubes = Vec::with_capacity(sections.len());
+        for ((&k, sections), nodes) in chain.chambers.iter().zip(&sections).zip(&nodes) {
+            let name = &plan.chambers[k].name;
+            tubes.push(add_chamber(model, name, face_names(plan, k), sections, nodes)?);
         }
-        let wall_name = |w: usize| format!("wall/{}", plan.walls[w].name);
-        let front = if k == 0 { "leading_edge".to_owned() } else { wall_name(k - 1) };
-        let back = if k + 1 == plan.chambers.len() { "trailing_edge".to_owned() } else { wall_name(k) };
-        let names = segment_names(&chamber.name, &front, &back);
-        polygons.extend(rings.iter().map(|ring| ring.polygon(&chamber.name)));
-        let tube = add_chamber(model, &chamber.name, names, &rings)?;
+        // A chamber ends where it has no turn; alone it ends at both sides.
+        let away = |turn: Option<&usize>| turn.map(|&t| 1 - plan.turns[t].side());
+        let sides = [away(chain.turns.first()).unwrap_or(0), away(chain.turns.last()).unwrap_or(1)];
+        let mut parts: Vec<PassagePart> = Vec::new();
+        let mut from = sides[0];
+        for (i, (&k, tube)) in chain.chambers.iter().zip(&tubes).enumerate() {
+            let (path, faces) = (format!("chamber/{}", plan.chambers[k].name), tube.faces.clone());
+            parts.push(PassagePart { path, turn: None, faces, reversed: from == 1 });
+            from = 1 - from;
+            if let Some(&t) = chain.turns.get(i) {
+                let faces = add_turn(model, &turns[t], [tube, &tubes[i + 1]], check)?;
+                let path = format!("turn/{}", plan.turns[t].name);
+                parts.push(PassagePart {
+                    path,
+                    turn: Some(plan.turns[t].side()),
+                    faces,
+                    reversed: plan.turns[t].side() == 0,
+                });
+            }
+        }
+        let (first, last) = (chain.chambers[0], chain.chambers[chain.chambers.len() - 1]);
+        let end = |k: usize, tube: &CutTube, side: usize| PassageEnd {
+            ring: tube.rings[side].clone(),
+            side,
+            v: stack.spans.chambers[k][side],
+            name: plan.chambers[k].name.clone(),
+            path: format!("chamber/{}", plan.chambers[k].name),
+        };
         passages.push(Passage {
-            name: chamber.name.clone(),
-            path: format!("chamber/{}", chamber.name),
-            faces: tube.faces,
+            name: plan.chambers[first].name.clone(),
+            faces: parts.iter().flat_map(|p| p.faces.iter().copied()).collect(),
+            parts,
             // Chambers run round in the blade's own sense.
             outward: blade.outward,
-            rings: tube.rings,
-            span: stack.spans[k],
+            ends: [end(first, &tubes[0], sides[0]), end(last, &tubes[tubes.len() - 1], sides[1])],
             branches: Vec::new(),
         });
     }
-    if refusals.is_empty() { Ok((passages, polygons)) } else { Err(BuildError::worst(refusals)) }
+    Ok((passages, polygons))
+}
+
+/// Names of a chamber's faces.
+fn face_names(plan: &Plan, k: usize) -> [String; SEGMENTS] {
+    let wall_name = |w: usize| format!("wall/{}", plan.walls[w].name);
+    let front = if k == 0 { "leading_edge".to_owned() } else { wall_name(k - 1) };
+    let back = if k + 1 == plan.chambers.len() { "trailing_edge".to_owned() } else { wall_name(k) };
+    segment_names(&plan.chambers[k].name, &front, &back)
 }
 
 /// The rings of chamber `k` in all sections of its span, and what is refused.
 fn chamber_rings<'s>(stack: &'s Stack, plan: &Plan, k: usize) -> (Vec<RingSection<'s>>, Vec<Fault>) {
-    let pointer = format!("/cooling/chambers/{k}");
     let (mut rings, mut refusals) = (Vec::new(), Vec::new());
-    for i in stack.within(stack.spans[k]) {
-        let (section, offset) = (&stack.sections[i], &stack.offsets[i]);
-        let [front, back] = closures(stack, plan, k, i);
-        let request = RingRequest { outline: &offset.outline, camber: &offset.camber, front, back };
-        let ring = match k {
-            0 if !offset.circle_is_clear() => Err(Refusal::NoseTooSharp),
-            _ => chamber_ring(&request),
-        };
-        match ring {
-            Ok(ring) => rings.push(RingSection { stream: &section.stream, outline: &offset.outline, ring }),
-            Err(refusal) => {
-                let radius = plan.chambers[k].fillet_radius.at(section.stream.v());
-                let refusal = refusal.with_radius_in_space(radius);
-                let at = blame(&pointer, &refusal);
-                refusals.push(BuildError::fault(&at, section.stream.v(), &refusal));
-            }
+    for i in stack.of_chamber(k) {
+        match ring_at(stack, plan, k, i) {
+            Ok(ring) => rings.push(RingSection {
+                stream: &stack.sections[i].stream,
+                outline: &stack.offsets[i].outline,
+                ring,
+            }),
+            Err(fault) => refusals.push(*fault),
         }
     }
     (rings, refusals)
+}
+
+/// The ring of chamber `k` in section `i`, or what is refused.
+pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Box<Fault>> {
+    let offset = &stack.offsets[i];
+    let [front, back] = closures(stack, plan, k, i);
+    let request = RingRequest { outline: &offset.outline, camber: &offset.camber, front, back };
+    let ring = match k {
+        0 if !offset.circle_is_clear() => Err(Refusal::NoseTooSharp),
+        _ => chamber_ring(&request),
+    };
+    ring.map_err(|refusal| {
+        let radius = plan.chambers[k].fillet_radius.at(stack.sections[i].stream.v());
+        let refusal = refusal.with_radius_in_space(radius);
+        let at = blame(&format!("/cooling/chambers/{k}"), &refusal);
+        Box::new(BuildError::fault(&at, stack.sections[i].stream.v(), &refusal))
+    })
 }
 
 /// What closes chamber `k` in section `i` at its front and at its back.

@@ -2,7 +2,7 @@
 
 use super::error::BuildError;
 use coolinggen_blade::Blade;
-use coolinggen_nurbs::ParametricSurface;
+use coolinggen_nurbs::{ParametricSurface, Projection};
 use glam::DVec3;
 
 /// Measures distances to the outer surface, starting each search at the nearest of a grid of its points.
@@ -25,8 +25,8 @@ impl<'a> Probe<'a> {
         Self { blade, grid }
     }
 
-    /// Distance into the material, negative outside.
-    pub(crate) fn thickness(&self, p: DVec3) -> Result<f64, BuildError> {
+    /// The point of the outer surface nearest to `p`.
+    pub(crate) fn foot(&self, p: DVec3) -> Result<Projection, BuildError> {
         let mut best = (f64::INFINITY, (0.0, 0.0));
         for (q, hint) in &self.grid {
             let d = q.distance_squared(p);
@@ -34,10 +34,18 @@ impl<'a> Probe<'a> {
                 best = (d, *hint);
             }
         }
-        let foot = self.blade.closest(p, best.1)?;
+        Ok(self.blade.closest(p, best.1)?)
+    }
+
+    /// Distance into the material, negative outside.
+    pub(crate) fn thickness(&self, p: DVec3) -> Result<f64, BuildError> {
+        Ok(self.thickness_at(p, &self.foot(p)?))
+    }
+
+    /// Distance into the material of a point whose foot is known.
+    pub(crate) fn thickness_at(&self, p: DVec3, foot: &Projection) -> f64 {
         let (_, u, w) = self.blade.surface.first_derivatives(foot.u, foot.v);
         let outward = u.cross(w) * if self.blade.outward { 1.0 } else { -1.0 };
-        let inside = outward.dot(p - foot.point) <= 0.0;
-        Ok(if inside { foot.distance } else { -foot.distance })
+        if outward.dot(p - foot.point) <= 0.0 { foot.distance } else { -foot.distance }
     }
 }

@@ -4,8 +4,9 @@ use super::bridge::Bridged;
 use super::error::BuildError;
 use super::sections::{Grid, Section, WallLine, span_fractions, wall_lines};
 use super::shell::{EndRadii, OffsetSection, offset_section};
+use super::spans::{Spans, spans};
 use crate::plan::{Plan, ShellPlan};
-use coolinggen_blade::{Blade, Fault, StreamSpace};
+use coolinggen_blade::{Blade, StreamSpace};
 use glam::DVec3;
 
 /// Sections at all span fractions at which a chamber has one.
@@ -17,24 +18,29 @@ pub(super) struct Stack {
     pub(super) offsets: Vec<OffsetSection>,
     /// Walls, each with a line a section.
     pub(super) walls: Vec<Vec<WallLine>>,
-    /// Span ranges of the chambers.
-    pub(super) spans: Vec<[f64; 2]>,
+    /// Where chambers and turns are.
+    pub(super) spans: Spans,
     /// Where the leading chamber's sides give way to its nose, on the offset of each section; none where an arc that
     /// touches the sides closes it.
     pub(super) nose: Option<Vec<(f64, f64)>>,
 }
 
 impl Stack {
-    /// Sections for the chambers of `plan` inside `shell`.
+    /// Sections for the chambers and turns of `plan` inside `shell`, the turns with these clearances, mm.
     pub(super) fn new(
         blade: &Blade,
         space: &StreamSpace,
         grid: &Grid,
         plan: &Plan,
         shell: &ShellPlan,
+        clearances: &[f64],
     ) -> Result<Self, BuildError> {
-        let spans = spans(blade, space, grid, plan, shell)?;
-        let fractions = span_fractions(&spans);
+        let spans = spans(blade, space, grid, plan, shell, clearances)?;
+        let mut fractions = span_fractions(&spans.chambers);
+        fractions.extend(spans.turns.iter().flat_map(|t| &t.fractions));
+        fractions.sort_by(f64::total_cmp);
+        fractions.dedup();
+        let front = reach(&spans, plan, 0);
         let sections: Vec<Section> =
             fractions.iter().map(|&v| Section::new(blade, space, grid, v)).collect::<Result<_, _>>()?;
         let walls = plan.walls.iter().map(|wall| wall_lines(&sections, wall)).collect::<Result<_, _>>()?;
@@ -55,10 +61,10 @@ impl Stack {
         if !refusals.is_empty() {
             return Err(BuildError::worst(refusals));
         }
-        let nose = if natural_nose(grid, &sections, &offsets, plan, spans[0]) {
+        let nose = if natural_nose(grid, &sections, &offsets, plan, front) {
             Some(vec![grid.leading_edge; sections.len()])
         } else {
-            round_noses(grid, &sections, &mut offsets, spans[0], ends)?
+            round_noses(grid, &sections, &mut offsets, front, ends)?
         };
         Ok(Self { sections, offsets, walls, spans, nose })
     }
@@ -69,42 +75,41 @@ impl Stack {
         self.sections.iter().zip(&self.offsets).map(tail).collect()
     }
 
-    /// Indices of the sections within a span range.
-    pub(super) fn within(&self, span: [f64; 2]) -> impl Iterator<Item = usize> + '_ {
-        let inside = move |i: &usize| (span[0]..=span[1]).contains(&self.sections[*i].stream.v());
-        (0..self.sections.len()).filter(inside)
+    /// Indices of the sections that chamber `k` is lofted through: those within its span, less those nearer to a
+    /// neighbour than a smooth loft bears. The ends stay.
+    pub(super) fn of_chamber(&self, k: usize) -> Vec<usize> {
+        const LEAST_GAP: f64 = 0.04;
+        let [start, end] = self.spans.chambers[k];
+        let v = |i: usize| self.sections[i].stream.v();
+        let mut kept: Vec<usize> = Vec::new();
+        for i in (0..self.sections.len()).filter(|&i| (start..=end).contains(&v(i))) {
+            let clear =
+                kept.last().is_none_or(|&last| v(i) - v(last) >= LEAST_GAP) && end - v(i) >= LEAST_GAP;
+            if clear || v(i) == start || v(i) == end {
+                kept.push(i);
+            }
+        }
+        kept
+    }
+
+    /// Indices of the sections of a turn, away from the chambers.
+    pub(super) fn of_turn(&self, turn: usize) -> Vec<usize> {
+        let fractions = &self.spans.turns[turn].fractions;
+        let find = |v: f64| self.sections.iter().position(|s| s.stream.v() == v);
+        fractions.iter().filter_map(|&v| find(v)).collect()
     }
 }
 
-/// Span ranges of the chambers: as given, or from the hub to the tip less the shell's tip thickness.
-fn spans(
-    blade: &Blade,
-    space: &StreamSpace,
-    grid: &Grid,
-    plan: &Plan,
-    shell: &ShellPlan,
-) -> Result<Vec<[f64; 2]>, BuildError> {
-    let top = match shell.tip {
-        None => 1.0,
-        Some(tip) => {
-            // Stream surfaces are no offsets of each other: the least of the span fractions this far below the tip.
-            const STEPS: u32 = 20;
-            let section = Section::new(blade, space, grid, 1.0)?;
-            let mut v = 1.0f64;
-            for i in 0..=STEPS {
-                let at = section.stream.to_space(section.camber.at(f64::from(i) / f64::from(STEPS)).center);
-                let up = section.stream.level(at).1;
-                v = v.min(space.span_fraction(at - up * tip)?);
-            }
-            if !(v > 0.05) {
-                let message = "the tip thickness leaves no room for a chamber";
-                let fault = Fault::new("/cooling/shell/tip", "geometry", message).value(tip).unit("mm");
-                return Err(BuildError::Refused(vec![fault]));
-            }
-            v
+/// The range of span fractions in which chamber `k` has rings: its own, and those of its turns.
+fn reach(spans: &Spans, plan: &Plan, k: usize) -> [f64; 2] {
+    let [mut low, mut high] = spans.chambers[k];
+    for (turn, span) in plan.turns.iter().zip(&spans.turns) {
+        if turn.front == k || turn.front + 1 == k {
+            let last = span.fractions[span.fractions.len() - 1];
+            (low, high) = (low.min(last), high.max(last));
         }
-    };
-    Ok(plan.chambers.iter().map(|c| c.span.unwrap_or([0.0, top])).collect())
+    }
+    [low, high]
 }
 
 /// Whether the leading chamber may follow the offset profile round the nose: it may where the nose is nowhere sharper

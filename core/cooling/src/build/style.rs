@@ -21,6 +21,11 @@ pub(super) fn chamber(name: &str) -> Style {
     style(format!("chamber/{name}"), [0.85, 0.45, 0.25])
 }
 
+/// Faces between metal and the coolant of a turn.
+pub(super) fn turn(name: &str) -> Style {
+    style(format!("turn/{name}"), [0.72, 0.40, 0.62])
+}
+
 /// Faces between metal and the coolant of a radial hole.
 pub(super) fn radial_hole() -> Style {
     style("radial_hole", [0.90, 0.62, 0.20])

@@ -14,11 +14,16 @@ pub struct Shell {
     /// Thickness on the pressure side, mm, measured in space, normal to the outer surface.
     #[schemars(extend("unit" = "mm", "minimum" = 0.01, "maximum" = 1000.0))]
     pub pressure_side: LawSpec,
-    /// Metal between the tip and the chambers that do not give their own span, mm. Without it they are open at the
-    /// tip.
+    /// Metal between the tip and the chambers and turns that do not give their own span, mm. Without it such chambers
+    /// are open at the tip.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.01, max = 1000.0), extend("unit" = "mm"))]
     pub tip: Option<f64>,
+    /// Metal between the hub and the turns there whose chambers do not give their own span, mm; without it as much as
+    /// at the tip.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.01, max = 1000.0), extend("unit" = "mm"))]
+    pub hub: Option<f64>,
 }
 
 /// A wall between two chambers.
@@ -53,7 +58,8 @@ pub struct Chamber {
     #[schemars(regex(pattern = r"^[A-Za-z0-9][A-Za-z0-9_-]{0,31}$"))]
     pub name: String,
     /// Span fractions at which it begins and ends; 0 is open at the hub, 1 open at the tip. Without it the chamber
-    /// runs from the hub to the tip, less the shell's tip thickness.
+    /// runs from the hub to the tip, less the shell's tip thickness. At a turn the straight part ends here and the turn
+    /// goes on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("unit" = "span fraction", "items" = {"type": "number", "minimum": 0.0, "maximum": 1.0}))]
     pub span: Option<[f64; 2]>,

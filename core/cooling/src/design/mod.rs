@@ -10,12 +10,14 @@ mod read;
 mod schema;
 mod slots;
 mod spelling;
+mod turns;
 
 pub use chambers::{Chamber, Shell, Wall};
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, schema_faults};
 pub use slots::SlotRow;
+pub use turns::{Automatic, Clearance, Turn, TurnEnd};
 
 use crate::plan::Plan;
 use coolinggen_blade::{BladeSource, Fault, SpaceSpec};
@@ -63,6 +65,10 @@ pub struct Cooling {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 33))]
     pub chambers: Vec<Chamber>,
+    /// Turns: each joins two neighbouring chambers at the tip or at the hub into one passage.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 64))]
+    pub turns: Vec<Turn>,
     /// Round passages straight from hub to tip.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]

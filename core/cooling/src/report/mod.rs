@@ -1,5 +1,6 @@
 //! The report of a built design: what it is, measured.
 
+mod passages;
 mod text;
 mod thickness;
 
@@ -11,6 +12,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use thickness::thinnest_walls;
 
+pub use passages::{PartReport, PassageReport, StationReport};
 pub use thickness::ThinnestWall;
 
 /// Everything measured on a built design. Lengths mm, areas mm2, volumes mm3.
@@ -35,6 +37,9 @@ pub struct Report {
     /// The thinnest metal between a passage and the outer surface.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_thickness_mm: Option<ThinnestWall>,
+    /// Chains of chambers and turns, from where the coolant enters.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub passages: Vec<PassageReport>,
     /// The radial holes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub radial_holes: Vec<RadialHoleReport>,
@@ -209,6 +214,7 @@ impl Report {
             blank: blank(cooled, blade, &integrals),
             faces: faces(model, &integrals),
             wall_thickness_mm: None,
+            passages: Vec::new(),
             radial_holes: Vec::new(),
             holes: cooled.film_holes.iter().map(|hole| hole_report(hole, &integrals)).collect(),
             slots: cooled.slots.iter().map(|slot| slot_report(slot, &integrals)).collect(),
@@ -216,6 +222,8 @@ impl Report {
             timings_ms: Timings::default(),
         };
         report.measure_solids(model, &integrals)?;
+        let passages = cooled.passages.iter().map(|p| passages::passage(model, &p.name, &p.parts));
+        report.passages = passages.collect::<Result<_, _>>()?;
         let walls = thinnest_walls(blade, cooled)?;
         report.radial_holes = cooled.radial_holes.iter().map(|hole| radial_hole(hole, &walls)).collect();
         report.wall_thickness_mm = walls.into_iter().min_by(|a, b| a.min.total_cmp(&b.min));

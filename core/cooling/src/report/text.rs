@@ -1,6 +1,6 @@
 //! The report as a page of text.
 
-use super::{HoleReport, Report};
+use super::{HoleReport, PassageReport, Report, StationReport};
 use std::fmt::Write;
 
 /// A table of what matters first.
@@ -32,6 +32,16 @@ fn write(report: &Report, out: &mut String) -> std::fmt::Result {
     if let Some(wall) = &report.wall_thickness_mm {
         let [x, y, z] = wall.at_mm;
         writeln!(out, "\n  thinnest wall {:.4} mm at ({x:.3}, {y:.3}, {z:.3}) on {}", wall.min, wall.face)?;
+    }
+    if !report.passages.is_empty() {
+        writeln!(
+            out,
+            "\n  {:<24} {:>10} {:>21} {:>21}",
+            "passage", "length mm", "flow area mm2", "hydraulic diam. mm"
+        )?;
+        for passage in &report.passages {
+            write_passage(passage, out)?;
+        }
     }
     if !report.radial_holes.is_empty() {
         writeln!(
@@ -87,6 +97,26 @@ fn film_rows(report: &Report, out: &mut String) -> std::fmt::Result {
             optional(ligament),
             fed.join(", ")
         )?;
+    }
+    Ok(())
+}
+
+/// A line for the passage and one for each of its parts: length, range of flow area and of hydraulic diameter.
+fn write_passage(passage: &PassageReport, out: &mut String) -> std::fmt::Result {
+    let mut line = |name: &str, [from, to]: [f64; 2]| {
+        let within = |s: &&StationReport| (from..=to).contains(&s.length_mm);
+        let range = |value: &dyn Fn(&StationReport) -> f64| {
+            let values = passage.stations.iter().filter(within).map(value);
+            let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(l, h), x| (l.min(x), h.max(x)));
+            format!("{low:.3} .. {high:.3}")
+        };
+        let (area, diameter) = (range(&|s| s.area_mm2), range(&|s| s.hydraulic_diameter_mm));
+        writeln!(out, "  {name:<24} {:>10.3} {area:>21} {diameter:>21}", to - from)
+    };
+    line(&passage.name, [0.0, passage.length_mm])?;
+    // A passage of one part says nothing more there.
+    for part in passage.parts.iter().filter(|_| passage.parts.len() > 1) {
+        line(&format!("  {}", part.name), part.from_to_mm)?;
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use crate::build::{BuildError, CooledBlade, Probe};
 use coolinggen_blade::Blade;
 use coolinggen_brep::{Face, FaceId};
 use coolinggen_nurbs::{ParametricCurve, ParametricSurface};
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use serde::Serialize;
 
 /// Thickness at one point of a passage.
@@ -35,6 +35,10 @@ pub(super) fn thinnest_walls(blade: &Blade, cooled: &CooledBlade) -> Result<Vec<
     for &(id, side) in &cooled.closed_ends {
         walls.push(end_wall(cooled, cooled.model.face(id), side));
     }
+    for part in cooled.passages.iter().flat_map(|p| &p.parts) {
+        let Some(side) = part.turn else { continue };
+        walls.extend(part.faces.iter().map(|&id| turn_wall(cooled, cooled.model.face(id), side)));
+    }
     if let Some((k, id, q)) = least {
         let face = cooled.model.face(id);
         let (q, thickness) = refined(&probe, face, q)?;
@@ -52,13 +56,32 @@ fn end_wall(cooled: &CooledBlade, face: &Face, side: usize) -> ThinnestWall {
         for i in 0..SAMPLES {
             let q = coedge.parameter_at(f64::from(i) / f64::from(SAMPLES));
             let p = face.surface.point(q.x, q.y);
-            let below = cooled.end_surfaces[side].level(p).0 * if side == 1 { -1.0 } else { 1.0 };
+            let below = depth(cooled, p, side);
             if below < thinnest.min {
                 thinnest = ThinnestWall { min: below, at_mm: p.to_array(), ..thinnest };
             }
         }
     }
     thinnest
+}
+
+/// Metal between a turn's face and the hub (0) or tip (1), on a grid.
+fn turn_wall(cooled: &CooledBlade, face: &Face, side: usize) -> ThinnestWall {
+    const STEPS: u32 = 12;
+    let mut thinnest = ThinnestWall { min: f64::INFINITY, at_mm: [0.0; 3], face: face.name.clone() };
+    for (i, j) in (0..=STEPS).flat_map(|i| (0..=STEPS).map(move |j| (i, j))) {
+        let p = face.surface.point(f64::from(i) / f64::from(STEPS), f64::from(j) / f64::from(STEPS));
+        let metal = depth(cooled, p, side);
+        if metal < thinnest.min {
+            thinnest = ThinnestWall { min: metal, at_mm: p.to_array(), ..thinnest };
+        }
+    }
+    thinnest
+}
+
+/// Distance of a point above the hub (0) or below the tip (1).
+fn depth(cooled: &CooledBlade, p: DVec3, side: usize) -> f64 {
+    cooled.end_surfaces[side].level(p).0 * if side == 1 { -1.0 } else { 1.0 }
 }
 
 fn at(walls: &[ThinnestWall], k: usize) -> f64 {
