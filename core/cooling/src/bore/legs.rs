@@ -29,30 +29,31 @@ pub(super) fn legs(
     rays: &dyn Fn(f64) -> Ray,
     start: (FaceId, DVec2, f64),
 ) -> Result<(Vec<Leg>, (FaceId, Hit)), BoreError> {
-    let (mut face, near, along) = start;
-    let first = target.meet(face, &rays(0.0), near, along).ok_or(BoreError::Misses)?;
+    let (mut face, first) = target.find(start.0, &rays(0.0), start.1, start.2)?;
     let mut leg = Leg { face, start: (first.at, first.along), to: 1.0, crossing: None };
     let mut out = Vec::new();
-    let mut last = first;
+    let mut last = (first.at, first.along);
     let mut before = 0.0;
+    let mut end = first;
     for k in 1..=STEPS {
         let t = k as f64 / STEPS as f64;
-        let mut hit = target.meet(face, &rays(t), last.at, last.along).ok_or(BoreError::Misses)?;
+        let mut hit = target.meet(face, &rays(t), last.0, last.1).ok_or(BoreError::Misses)?;
         while !target.holds(face, hit.at) {
             if out.len() == MOST_CROSSINGS {
                 return Err(BoreError::Misses);
             }
-            let crossing = target.crossing(face, rays, (before, t), &hit)?;
+            let crossing = target.crossing(face, rays, (before, t), last, &hit)?;
             leg.to = crossing.t;
             leg.crossing = Some(crossing);
             out.push(leg);
             face = crossing.to;
             leg = Leg { face, start: (crossing.to_at, crossing.along), to: 1.0, crossing: None };
             before = crossing.t;
+            last = (crossing.to_at, crossing.along);
             hit = target.meet(face, &rays(t), crossing.to_at, crossing.along).ok_or(BoreError::Misses)?;
         }
-        (last, before) = (hit, t);
+        (last, before, end) = ((hit.at, hit.along), t, hit);
     }
     out.push(leg);
-    Ok((out, (face, last)))
+    Ok((out, (face, end)))
 }

@@ -72,6 +72,29 @@ impl Target<'_> {
         Some(with_slopes(&hit, ray))
     }
 
+    /// Where a ray meets the target near a place of `face`: on that face, or on a neighbour if the place was not exact.
+    pub(super) fn find(
+        &self,
+        mut face: FaceId,
+        ray: &Ray,
+        near: DVec2,
+        along: f64,
+    ) -> Result<(FaceId, Hit), BoreError> {
+        const MOST_STEPS: usize = 4;
+        let mut hit = self.meet(face, ray, near, along).ok_or(BoreError::Misses)?;
+        for _ in 0..MOST_STEPS {
+            let Some(side) = self.left_over(face, hit.at) else { return Ok((face, hit)) };
+            let free = match side {
+                Side::U(_) => hit.at.y,
+                Side::V(_) => hit.at.x,
+            };
+            let (_, _, to, to_at) = self.over_border(face, side, free)?;
+            face = to;
+            hit = self.meet(face, ray, to_at, hit.along).ok_or(BoreError::Misses)?;
+        }
+        Err(BoreError::Misses)
+    }
+
     /// The side of the face's rectangle over which a point has left it.
     fn left_over(&self, face: FaceId, at: DVec2) -> Option<Side> {
         let ((u0, u1), (v0, v1)) = self.model.face(face).surface.domain();
@@ -90,50 +113,78 @@ impl Target<'_> {
         self.left_over(face, at).is_none()
     }
 
-    /// Where a family of rays leaves `face` between the parameters `inside` and `outside`; `at` and `along` are of the
-    /// hit at `outside`, beyond the border.
+    /// Where a family of rays leaves `face` between the parameters `inside` and `outside`, given where it hits the face
+    /// there (parameters and multiple of the ray) and beyond the border. The hits on the continued surface bracket the
+    /// crossing, also where the rays graze the border (regula falsi, Illinois variant).
     pub(super) fn crossing(
         &self,
         face: FaceId,
         rays: &dyn Fn(f64) -> Ray,
         (inside, outside): (f64, f64),
+        last: (DVec2, f64),
         beyond: &Hit,
     ) -> Result<Crossing, BoreError> {
         let side = self.left_over(face, beyond.at).ok_or(BoreError::Misses)?;
-        let surface = &self.model.face(face).surface;
-        let (mut t, mut along) = (outside, beyond.along);
-        let mut free = match side {
-            Side::U(_) => beyond.at.y,
-            Side::V(_) => beyond.at.x,
+        let ((u0, u1), (v0, v1)) = self.model.face(face).surface.domain();
+        let over = |at: DVec2| match side {
+            Side::U(u) => (at.x - u) / (u1 - u0) * if u == u0 { -1.0 } else { 1.0 },
+            Side::V(v) => (at.y - v) / (v1 - v0) * if v == v0 { -1.0 } else { 1.0 },
         };
-        let mut left = f64::INFINITY;
-        for _ in 0..40 {
-            let at = match side {
-                Side::U(u) => DVec2::new(u, free),
-                Side::V(v) => DVec2::new(free, v),
-            };
-            let (point, du, dv) = surface.first_derivatives(at.x, at.y);
-            let ray = rays(t);
-            let miss = ray.origin + ray.direction * along - point;
-            let now = miss.length();
-            if now < 1e-10 && now >= 0.25 * left {
-                let (edge, edge_t, to, to_at) = self.over_border(face, side, free)?;
-                return Ok(Crossing { t, edge, edge_t, to, to_at, along });
+        let mut near = last;
+        let mut at = |t: f64| -> Result<Hit, BoreError> {
+            let hit = self.meet(face, &rays(t), near.0, near.1).ok_or(BoreError::Misses)?;
+            near = (hit.at, hit.along);
+            Ok(hit)
+        };
+        let (mut low, mut high) = (inside, outside);
+        let (mut f_low, mut f_high) = (over(last.0), over(beyond.at));
+        if f_low > -1e-12 {
+            // The rays have just come over this border: they must lead inside before they leave again.
+            const STEPS: u32 = 16;
+            let within = (1..STEPS).map(|k| inside + (outside - inside) * f64::from(k) / f64::from(STEPS));
+            for t in within {
+                let f = over(at(t)?.at);
+                if f < 0.0 {
+                    (low, f_low) = (t, f);
+                    break;
+                }
             }
-            left = now;
-            let border = if matches!(side, Side::U(_)) { dv } else { du };
-            let across = ray.origin_slope + ray.direction_slope * along;
-            let step = DMat3::from_cols(across, ray.direction, -border).inverse() * miss;
-            if !step.is_finite() {
+            if f_low > -1e-12 {
+                return Err(BoreError::Misses);
+            }
+        }
+        let (mut t, mut kept_low) = (high, false);
+        let mut hit = *beyond;
+        for _ in 0..100 {
+            let next = low - f_low * (high - low) / (f_high - f_low);
+            if next == t {
                 break;
             }
-            // Keep to the interval, a little beyond its ends: where two borders are near, the other may come first.
-            let (low, high) = (inside.min(outside), inside.max(outside));
-            let slack = high - low;
-            t = (t - step.x).clamp(low - slack, high + slack);
-            (along, free) = (along - step.y, free - step.z);
+            t = next;
+            hit = at(t)?;
+            let f = over(hit.at);
+            if f.abs() < 1e-15 {
+                break;
+            }
+            let above = f > 0.0;
+            if above {
+                (high, f_high) = (t, f);
+            } else {
+                (low, f_low) = (t, f);
+            }
+            // The end that stays twice weighs half.
+            match (above, kept_low) {
+                (true, true) => f_low *= 0.5,
+                (false, false) => f_high *= 0.5,
+                _ => kept_low = above,
+            }
         }
-        Err(BoreError::Misses)
+        let free = match side {
+            Side::U(_) => hit.at.y,
+            Side::V(_) => hit.at.x,
+        };
+        let (edge, edge_t, to, to_at) = self.over_border(face, side, free)?;
+        Ok(Crossing { t, edge, edge_t, to, to_at, along: hit.along })
     }
 
     /// The edge at a place of a face's side, its parameter there, and the face beyond with its parameters.

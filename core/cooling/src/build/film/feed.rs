@@ -32,8 +32,10 @@ pub(super) fn feed(blank: &Blank<'_>, caster: &Caster, hole: &Hole<'_>) -> Resul
     let none = || hole.fault("reaches_no_chamber", "reaches no chamber along its axis");
     let (passage, met) = fed_by(hole.at.point).ok_or_else(none)?;
     let name = &blank.passages[passage].name;
-    if let Some(wanted) = hole.row.chamber.as_ref().filter(|c| *c != name) {
-        let what = format!("meets chamber \"{name}\" before \"{wanted}\"");
+    let face = &blank.model.face(met.face).name;
+    let other = |chamber: &&String| !face.starts_with(&format!("chamber/{chamber}/"));
+    if let Some(wanted) = hole.row.chamber.as_ref().filter(other) {
+        let what = format!("meets {face} before chamber \"{wanted}\"");
         return Err(hole.fault("other_chamber", what));
     }
     let length = met.along;
