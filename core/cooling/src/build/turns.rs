@@ -123,7 +123,9 @@ impl TurnSite<'_> {
             }
             TurnRefusal::FilletTooLarge { radius, greatest } => fault(&chamber).value(*radius).max(*greatest),
             TurnRefusal::NoSide { x } => fault(&turn).value(*x),
-            TurnRefusal::ThinShell { found, asked, .. } => fault(&turn).value(*found).min(*asked),
+            TurnRefusal::ThinShell { found, asked, .. } => {
+                fault(&turn).value(*found).min(*asked).hint("a smaller exponent, or another clearance")
+            }
             TurnRefusal::Unmapped | TurnRefusal::Fold { .. } => fault(&turn),
         };
         BuildError::Refused(vec![fault])
@@ -160,6 +162,21 @@ pub(super) struct ShellCheck<'a> {
 }
 
 impl ShellCheck<'_> {
+    /// The least thickness asked for about the parameter `u` of the blade: round the leading edge one side's passes into
+    /// the other's, and it begins to do so a little beside the foot of a leaned blade's shell.
+    fn asked(&self, u: f64, v: f64) -> f64 {
+        let (suction, pressure) = (self.shell.suction_side.at(v), self.shell.pressure_side.at(v));
+        let beside = self.blade.range(Region::LeadingEdge).map_or(0.0, |[start, end]| 0.1 * (end - start));
+        let regions = [u - beside, u, u + beside].map(|u| self.blade.region_at(u));
+        if regions.iter().all(|r| *r == Region::SuctionSide) {
+            suction
+        } else if regions.iter().all(|r| *r == Region::PressureSide) {
+            pressure
+        } else {
+            suction.min(pressure)
+        }
+    }
+
     /// The place where a turn comes nearest to the outer surface, if that is nearer than the shell allows.
     fn thin(&self, surfaces: &[Surface<DVec3>; SEGMENTS]) -> Result<Option<TurnRefusal>, BuildError> {
         const ACROSS: u32 = 6;
@@ -170,13 +187,7 @@ impl ShellCheck<'_> {
                 let at = surfaces[k].point(f64::from(i) / f64::from(ACROSS), f64::from(j) / f64::from(ALONG));
                 let foot = self.probe.foot(at)?;
                 let found = self.probe.thickness_at(at, &foot);
-                let v = self.space.span_fraction(at)?;
-                let (suction, pressure) = (self.shell.suction_side.at(v), self.shell.pressure_side.at(v));
-                let asked = match self.blade.region_at(foot.u) {
-                    Region::SuctionSide => suction,
-                    Region::PressureSide => pressure,
-                    Region::LeadingEdge | Region::TrailingEdge => suction.min(pressure),
-                };
+                let asked = self.asked(foot.u, self.space.span_fraction(at)?);
                 let ratio = found / asked;
                 if ratio < 1.0 - SHELL_TOLERANCE && worst.as_ref().is_none_or(|(least, _)| ratio < *least) {
                     worst = Some((ratio, TurnRefusal::ThinShell { part: PARTS[k], found, asked }));

@@ -29,7 +29,7 @@ pub(crate) struct TurnSurfaces {
 /// Distance between loft and shape that ends the refinement, mm; shapes blend, so that this is smoothness rather than
 /// truth.
 const TOLERANCE: f64 = 1e-3;
-const LEAST_ROWS: usize = 24;
+const LEAST_ROWS: usize = 16;
 const MOST_ROWS: usize = 192;
 
 /// Lofts the rings between the ends of the front and the back chamber, from `first` (0 front, 1 back) to the other.
@@ -40,7 +40,8 @@ pub(crate) fn loft(shape: &TurnShape, ends: &[EndRow; 2], first: usize) -> Resul
         if made.deviation <= TOLERANCE || rows >= MOST_ROWS {
             return Ok(made);
         }
-        rows *= 2;
+        // Even, so that one ring stands half way round.
+        rows += rows / 4 * 2;
     }
 }
 
