@@ -17,7 +17,7 @@ use coolinggen_blade::{Blade, Fault, Region, StreamSpace};
 use coolinggen_brep::{
     Coedge, EdgeId, Face, FaceId, Loop, Model, SurfaceGeometry, VertexId, straight_pcurve,
 };
-use coolinggen_nurbs::{Curve, ParametricCurve, ParametricSurface, Surface};
+use coolinggen_nurbs::{Curve, NurbsError, ParametricCurve, ParametricSurface, Surface};
 use glam::DVec3;
 
 /// A turn with the sections it passes.
@@ -178,7 +178,7 @@ impl ShellCheck<'_> {
     }
 
     /// The place where a turn comes nearest to the outer surface, if that is nearer than the shell allows.
-    fn thin(&self, surfaces: &[Surface<DVec3>; SEGMENTS]) -> Result<Option<TurnRefusal>, BuildError> {
+    fn thin(&self, surfaces: &[Surface<DVec3>]) -> Result<Option<TurnRefusal>, BuildError> {
         const ACROSS: u32 = 6;
         const ALONG: u32 = 12;
         let mut worst: Option<(f64, TurnRefusal)> = None;
@@ -267,15 +267,13 @@ fn end_row(model: &Model, chamber: &CutTube, side: usize, back: bool) -> Result<
     for k in 0..SEGMENTS {
         let face = chamber.faces[if back { mirrored(k) } else { k }];
         let SurfaceGeometry::BSpline(surface) = &model.face(face).surface else {
-            unreachable!("chambers are lofted splines");
+            return Err(NurbsError::NotFound { what: "the spline of a chamber's face" }.into());
         };
         let (border, slope) = (border(surface, side)?, slope(surface, side)?);
         curves.push(if back { border.reversed() } else { border });
         across.push(if back { slope.reversed() } else { slope });
     }
-    let array =
-        |curves: Vec<Curve<DVec3>>| curves.try_into().unwrap_or_else(|_| unreachable!("one a segment"));
-    Ok(EndRow { curves: array(curves), across: array(across) })
+    Ok(EndRow { curves, across })
 }
 
 /// The border of a lofted surface at its first (0) or last (1) section.

@@ -13,15 +13,15 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug)]
 pub(crate) struct EndRow {
     /// Borders, bit for bit.
-    pub(crate) curves: [Curve<DVec3>; SEGMENTS],
+    pub(crate) curves: Vec<Curve<DVec3>>,
     /// Derivatives of the surfaces across the border, as curves over it.
-    pub(crate) across: [Curve<DVec3>; SEGMENTS],
+    pub(crate) across: Vec<Curve<DVec3>>,
 }
 
-/// Surfaces over (t, q): t along the ring, q from 0 at the first chamber's end to 1 at the second's.
+/// Eight surfaces over (t, q): t along the ring, q from 0 at the first chamber's end to 1 at the second's.
 #[derive(Clone, Debug)]
 pub(crate) struct TurnSurfaces {
-    pub(crate) surfaces: [Surface<DVec3>; SEGMENTS],
+    pub(crate) surfaces: Vec<Surface<DVec3>>,
     /// Greatest distance of the shape between the rings from the lofts, normal to them, mm.
     pub(crate) deviation: f64,
 }
@@ -122,7 +122,6 @@ fn loft_rows(
         deviation = deviation.max(deviation_between(shape, k, &surface, &parameters, place));
         surfaces.push(surface);
     }
-    let surfaces = surfaces.try_into().unwrap_or_else(|_| unreachable!("a surface a segment"));
     Ok(TurnSurfaces { surfaces, deviation })
 }
 
