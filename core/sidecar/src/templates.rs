@@ -3,6 +3,7 @@
 /// Name and text of every template; the first is the default.
 pub(crate) const TEMPLATES: &[(&str, &str)] = &[
     ("rotor", include_str!("../../../samples/rotor.json")),
+    ("rotor-serpentine", include_str!("../../../samples/rotor-serpentine.json")),
     ("c3x", include_str!("../../../samples/c3x.json")),
     ("pritchard", include_str!("../../../samples/pritchard.json")),
     ("surface", include_str!("../../../samples/surface.json")),

@@ -86,7 +86,14 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
             }
             let sides = Sides::new(blade, &grid, &sections);
             let (outer, outward) = (&mut outer.faces, blade.outward);
-            let mut blank = Blank { model: &mut model, outer, passages: &mut passages, outward, ends: &ends };
+            let mut blank = Blank {
+                model: &mut model,
+                outer,
+                passages: &mut passages,
+                outward,
+                ends: &ends,
+                parts: Vec::new(),
+            };
             film_holes = add_film_rows(&mut blank, &sides, &plan.film_rows, plan.least_ligament)?;
             slots = add_slot_rows(&mut blank, &sections, &tails, &plan.slot_rows)?;
         }

@@ -4,7 +4,7 @@ use super::passages::{Branch, Passage};
 use super::style;
 use crate::bore::{BoreError, BoreNames, BoreShape, Drill, Mouth};
 use coolinggen_blade::StreamSurface;
-use coolinggen_brep::{Face, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
+use coolinggen_brep::{Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
 use coolinggen_nurbs::{ParametricCurve, ParametricSurface, Surface};
 use glam::{DVec2, DVec3};
 
@@ -18,6 +18,8 @@ pub(super) struct Blank<'a> {
     pub(super) outward: bool,
     /// Hub and tip.
     pub(super) ends: &'a [StreamSurface; 2],
+    /// Faces that bores have split off, each with the face whose surface it shares.
+    pub(super) parts: Vec<(FaceId, FaceId)>,
 }
 
 impl Blank<'_> {
@@ -31,11 +33,17 @@ impl Blank<'_> {
         [inner, outer]: [Mouth; 2],
         names: &BoreNames<'_>,
     ) -> Result<Vec<FaceId>, BoreError> {
+        let [inner, outer] =
+            [inner, outer].map(|mouth| Mouth { face: self.part_at(mouth.face, mouth.at), ..mouth });
         let faces = &self.passages[passage].faces;
         let bored = drill.bore(self.model, shape, [(faces, inner), (self.outer, outer)], names)?;
         let [lower, upper] = bored.imprints;
         self.passages[passage].faces.extend(lower.parts.iter().map(|(part, _)| *part));
         self.outer.extend(upper.parts.iter().map(|(part, _)| *part));
+        for (part, from) in lower.parts.into_iter().chain(upper.parts) {
+            let whole = self.parts.iter().find(|(known, _)| *known == from).map_or(from, |(_, whole)| *whole);
+            self.parts.push((part, whole));
+        }
         let mut exits = Vec::with_capacity(1);
         for (i, (parent, border)) in upper.inside.into_iter().enumerate() {
             let room = self.room_to_ends(&border);
@@ -52,6 +60,12 @@ impl Blank<'_> {
         let ends = exits.iter().map(|&face| FaceUse { face, forward: self.outward }).collect();
         self.passages[passage].branches.push(Branch { faces: bored.faces, ends });
         Ok(exits)
+    }
+
+    /// The part of a face that holds a place in its parameters.
+    fn part_at(&self, face: FaceId, at: DVec2) -> FaceId {
+        let mut parts = self.parts.iter().filter(|(_, whole)| *whole == face).map(|(part, _)| *part);
+        parts.find(|&part| FaceDomain::new(self.model.face(part)).contains(at)).unwrap_or(face)
     }
 
     /// The outer face that a point of the blade's surface lies on, with u in [0, 1].

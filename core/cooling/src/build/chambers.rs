@@ -62,7 +62,7 @@ pub(super) fn add_chamber(
     chamber: &str,
     names: [String; SEGMENTS],
     sections: &[RingSection<'_>],
-    nodes: &[Nodes; SEGMENTS],
+    nodes: &[Nodes],
 ) -> Result<CutTube, BuildError> {
     let vs: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
     let across = Interpolator::new(3, &vs)?;

@@ -125,10 +125,10 @@ impl Nodes {
     }
 }
 
-/// Nodes of the chambers of one passage, each given by its sections. Segments that a turn joins have the same nodes, so
+/// Nodes of the eight segments of each chamber of one passage, which is given by the chambers' sections. Segments that a turn joins have the same nodes, so
 /// that the turn's faces share the chambers' control points; the first, middle and last section of each chamber are
 /// judged.
-pub(super) fn passage_nodes(chambers: &[&[RingSection<'_>]]) -> Result<Vec<[Nodes; SEGMENTS]>, BuildError> {
+pub(super) fn passage_nodes(chambers: &[&[RingSection<'_>]]) -> Result<Vec<Vec<Nodes>>, BuildError> {
     // A turn joins segment k to the mirrored one of the next chamber, run through the other way.
     let turned = |chamber: usize| !chamber.is_multiple_of(2);
     let place = |chamber: usize, k: usize| if turned(chamber) { mirrored(k) } else { k };
@@ -150,6 +150,5 @@ pub(super) fn passage_nodes(chambers: &[&[RingSection<'_>]]) -> Result<Vec<[Node
             nodes.push(if turned(chamber) { own.reversed()? } else { own.clone() });
         }
     }
-    let array = |nodes: Vec<Nodes>| nodes.try_into().unwrap_or_else(|_| unreachable!("nodes a segment"));
-    Ok(all.into_iter().map(array).collect())
+    Ok(all)
 }

@@ -62,6 +62,8 @@ impl TurnSpan {
 
 /// Sections of a turn.
 const TURN_SECTIONS: usize = 6;
+/// Rounds of finding where straight parts end.
+const ROUNDS: usize = 20;
 /// How far beyond hub and tip walls are followed.
 const BEYOND: f64 = 0.03;
 /// How far the last section may lie beyond the turn's outer side, relative to its height.
@@ -104,8 +106,10 @@ pub(super) fn spans(
         let half = |v: f64| 0.5 * plan.walls[turn.front].thickness.at(v);
         let joint = match given {
             Some(v) => v,
-            // The wall's thickness varies slowly: its own end decides after one round.
-            None => (0..3).fold(end, |v, _| path.parameter(path.length(end) - sign * (clearance + half(v)))),
+            // The wall's thickness varies slowly: its value where the straight parts end settles fast.
+            None => {
+                (0..ROUNDS).fold(end, |v, _| path.parameter(path.length(end) - sign * (clearance + half(v))))
+            }
         };
         let inner = half(joint);
         let height = |factor: f64| path.parameter(path.length(joint) + sign * (inner + clearance) * factor);

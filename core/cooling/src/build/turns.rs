@@ -17,7 +17,7 @@ use coolinggen_blade::{Blade, Fault, Region, StreamSpace};
 use coolinggen_brep::{
     Coedge, EdgeId, Face, FaceId, Loop, Model, SurfaceGeometry, VertexId, straight_pcurve,
 };
-use coolinggen_nurbs::{Curve, ParametricCurve, ParametricSurface, Surface};
+use coolinggen_nurbs::{Curve, NurbsError, ParametricCurve, ParametricSurface, Surface};
 use glam::DVec3;
 
 /// A turn with the sections it passes.
@@ -123,7 +123,9 @@ impl TurnSite<'_> {
             }
             TurnRefusal::FilletTooLarge { radius, greatest } => fault(&chamber).value(*radius).max(*greatest),
             TurnRefusal::NoSide { x } => fault(&turn).value(*x),
-            TurnRefusal::ThinShell { found, asked, .. } => fault(&turn).value(*found).min(*asked),
+            TurnRefusal::ThinShell { found, asked, .. } => {
+                fault(&turn).value(*found).min(*asked).hint("a smaller exponent, or another clearance")
+            }
             TurnRefusal::Unmapped | TurnRefusal::Fold { .. } => fault(&turn),
         };
         BuildError::Refused(vec![fault])
@@ -160,8 +162,23 @@ pub(super) struct ShellCheck<'a> {
 }
 
 impl ShellCheck<'_> {
+    /// The least thickness asked for about the parameter `u` of the blade: round the leading edge one side's passes into
+    /// the other's, and it begins to do so a little beside the foot of a leaned blade's shell.
+    fn asked(&self, u: f64, v: f64) -> f64 {
+        let (suction, pressure) = (self.shell.suction_side.at(v), self.shell.pressure_side.at(v));
+        let beside = self.blade.range(Region::LeadingEdge).map_or(0.0, |[start, end]| 0.1 * (end - start));
+        let regions = [u - beside, u, u + beside].map(|u| self.blade.region_at(u));
+        if regions.iter().all(|r| *r == Region::SuctionSide) {
+            suction
+        } else if regions.iter().all(|r| *r == Region::PressureSide) {
+            pressure
+        } else {
+            suction.min(pressure)
+        }
+    }
+
     /// The place where a turn comes nearest to the outer surface, if that is nearer than the shell allows.
-    fn thin(&self, surfaces: &[Surface<DVec3>; SEGMENTS]) -> Result<Option<TurnRefusal>, BuildError> {
+    fn thin(&self, surfaces: &[Surface<DVec3>]) -> Result<Option<TurnRefusal>, BuildError> {
         const ACROSS: u32 = 6;
         const ALONG: u32 = 12;
         let mut worst: Option<(f64, TurnRefusal)> = None;
@@ -170,13 +187,7 @@ impl ShellCheck<'_> {
                 let at = surfaces[k].point(f64::from(i) / f64::from(ACROSS), f64::from(j) / f64::from(ALONG));
                 let foot = self.probe.foot(at)?;
                 let found = self.probe.thickness_at(at, &foot);
-                let v = self.space.span_fraction(at)?;
-                let (suction, pressure) = (self.shell.suction_side.at(v), self.shell.pressure_side.at(v));
-                let asked = match self.blade.region_at(foot.u) {
-                    Region::SuctionSide => suction,
-                    Region::PressureSide => pressure,
-                    Region::LeadingEdge | Region::TrailingEdge => suction.min(pressure),
-                };
+                let asked = self.asked(foot.u, self.space.span_fraction(at)?);
                 let ratio = found / asked;
                 if ratio < 1.0 - SHELL_TOLERANCE && worst.as_ref().is_none_or(|(least, _)| ratio < *least) {
                     worst = Some((ratio, TurnRefusal::ThinShell { part: PARTS[k], found, asked }));
@@ -256,15 +267,13 @@ fn end_row(model: &Model, chamber: &CutTube, side: usize, back: bool) -> Result<
     for k in 0..SEGMENTS {
         let face = chamber.faces[if back { mirrored(k) } else { k }];
         let SurfaceGeometry::BSpline(surface) = &model.face(face).surface else {
-            unreachable!("chambers are lofted splines");
+            return Err(NurbsError::NotFound { what: "the spline of a chamber's face" }.into());
         };
         let (border, slope) = (border(surface, side)?, slope(surface, side)?);
         curves.push(if back { border.reversed() } else { border });
         across.push(if back { slope.reversed() } else { slope });
     }
-    let array =
-        |curves: Vec<Curve<DVec3>>| curves.try_into().unwrap_or_else(|_| unreachable!("one a segment"));
-    Ok(EndRow { curves: array(curves), across: array(across) })
+    Ok(EndRow { curves, across })
 }
 
 /// The border of a lofted surface at its first (0) or last (1) section.

@@ -18,7 +18,7 @@ const FIBRE_GAPS: usize = 300;
 #[derive(Clone, Debug)]
 pub(crate) struct TurnChart {
     /// Surfaces over (x, zeta) at the fractions eta.
-    layers: [Surface<DVec3>; 5],
+    layers: Vec<Surface<DVec3>>,
     /// zeta of the sections.
     pub(super) levels: Vec<f64>,
 }
@@ -64,7 +64,6 @@ impl TurnChart {
             }
             layers.push(across.loft(&curves)?);
         }
-        let layers = layers.try_into().unwrap_or_else(|_| unreachable!("as many layers as fractions"));
         Ok(Ok(Self { layers, levels }))
     }
 

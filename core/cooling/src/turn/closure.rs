@@ -92,8 +92,10 @@ impl Strip {
         let norm = (rise.powf(exponent) + run.powf(exponent)).powf(1.0 / exponent);
         let zeta = top.y * rise / norm;
         let at = surface.point(t, zeta);
-        let weight = cos * cos * cos;
-        DVec3::new(at.x * run / norm, at.y * weight + top.x * (1.0 - weight), zeta)
+        // Where the closure still stands at its full x it keeps the chamber's form, which the shell bounds.
+        let share = run / norm;
+        let weight = share * share * share;
+        DVec3::new(at.x * share, at.y * weight + top.x * (1.0 - weight), zeta)
     }
 }
 

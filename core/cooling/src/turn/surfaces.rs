@@ -13,15 +13,15 @@ use std::f64::consts::PI;
 #[derive(Clone, Debug)]
 pub(crate) struct EndRow {
     /// Borders, bit for bit.
-    pub(crate) curves: [Curve<DVec3>; SEGMENTS],
+    pub(crate) curves: Vec<Curve<DVec3>>,
     /// Derivatives of the surfaces across the border, as curves over it.
-    pub(crate) across: [Curve<DVec3>; SEGMENTS],
+    pub(crate) across: Vec<Curve<DVec3>>,
 }
 
-/// Surfaces over (t, q): t along the ring, q from 0 at the first chamber's end to 1 at the second's.
+/// Eight surfaces over (t, q): t along the ring, q from 0 at the first chamber's end to 1 at the second's.
 #[derive(Clone, Debug)]
 pub(crate) struct TurnSurfaces {
-    pub(crate) surfaces: [Surface<DVec3>; SEGMENTS],
+    pub(crate) surfaces: Vec<Surface<DVec3>>,
     /// Greatest distance of the shape between the rings from the lofts, normal to them, mm.
     pub(crate) deviation: f64,
 }
@@ -29,7 +29,7 @@ pub(crate) struct TurnSurfaces {
 /// Distance between loft and shape that ends the refinement, mm; shapes blend, so that this is smoothness rather than
 /// truth.
 const TOLERANCE: f64 = 1e-3;
-const LEAST_ROWS: usize = 24;
+const LEAST_ROWS: usize = 16;
 const MOST_ROWS: usize = 192;
 
 /// Lofts the rings between the ends of the front and the back chamber, from `first` (0 front, 1 back) to the other.
@@ -40,7 +40,8 @@ pub(crate) fn loft(shape: &TurnShape, ends: &[EndRow; 2], first: usize) -> Resul
         if made.deviation <= TOLERANCE || rows >= MOST_ROWS {
             return Ok(made);
         }
-        rows *= 2;
+        // Even, so that one ring stands half way round.
+        rows += rows / 4 * 2;
     }
 }
 
@@ -121,7 +122,6 @@ fn loft_rows(
         deviation = deviation.max(deviation_between(shape, k, &surface, &parameters, place));
         surfaces.push(surface);
     }
-    let surfaces = surfaces.try_into().unwrap_or_else(|_| unreachable!("a surface a segment"));
     Ok(TurnSurfaces { surfaces, deviation })
 }
 
