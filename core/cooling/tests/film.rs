@@ -11,9 +11,13 @@ fn rotor(rows: Value) -> Result<Generated, Vec<Fault>> {
     rotor_with("film_rows", rows)
 }
 
+fn sample(name: &str) -> Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples").join(name);
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
 fn rotor_with(field: &str, rows: Value) -> Result<Generated, Vec<Fault>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples/rotor.json");
-    let mut design: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let mut design = sample("rotor.json");
     design["cooling"][field] = rows;
     generate(&Design::from_json(&design.to_string())?, Path::new("."))
 }
@@ -159,4 +163,32 @@ fn slots_that_do_not_fit_are_refused() {
     assert_eq!(codes(slots(40, 2.0, 0.4)), ["ligament"]);
     assert_eq!(codes(slots(1, 2.0, 2.5)), ["meets_wall"]);
     assert_eq!(codes(slots(1, 2.0, 0.15)), ["limit"]);
+}
+
+/// One serpentine passage with 108 film holes, three rows of them a showerhead, and 12 slots that part the face of the
+/// chamber's end between them.
+#[test]
+fn a_serpentine_with_a_hundred_holes_and_slots() {
+    let mut design = sample("rotor-serpentine.json");
+    let head = |name: &str, side: &str, distance: f64, stagger: f64| {
+        json!({
+            "name": name, "side": side, "surface_distance": distance, "span": [0.1, 0.8], "count": 22,
+            "stagger": stagger, "chamber": "leading", "hole": round(0.5, 35.0, 90.0)
+        })
+    };
+    design["cooling"]["film_rows"] = json!([
+        head("head_pressure", "pressure_side", 4.2, 0.25),
+        head("head", "pressure_side", 2.4, -0.25),
+        head("head_suction", "suction_side", 0.6, 0.25),
+        row("pressure", "pressure_side", 0.42, 22, round(0.5, 35.0, 0.0)),
+        row("suction", "suction_side", 0.4, 20, shaped(0.4, 2.5)),
+    ]);
+    design["cooling"]["slot_rows"] = slots(12, 2.0, 0.45);
+    design["cooling"]["slot_rows"][0]["span"] = json!([0.16, 0.9]);
+    let design = Design::from_json(&design.to_string()).unwrap();
+    let generated = generate(&design, Path::new(".")).unwrap_or_else(|f| panic!("{f:?}"));
+    check(&generated, 108);
+    // Open at the hub, closed at the other end: every bore makes a handle.
+    assert_eq!(generated.report.genus["metal"].found, Some(108 + 12));
+    assert_eq!(generated.report.genus["coolant/leading"].found, Some(0));
 }
