@@ -25,8 +25,9 @@ def assert_volume(found: float, expected: float, what: str, limit: float = VOLUM
 
 
 def assert_box(found, expected: list[list[float]], what: str) -> None:
-    """OpenCASCADE bounds the rectangle of each face's parameters, which may reach beyond the face's borders: its box
-    holds the exact one, and is not much greater. How tight the report's box is, the meshes tell (test_meshes)."""
+    """OpenCASCADE bounds the rectangle of each face's parameters, which may reach beyond the face's borders:
+    its box holds the exact one, and is not much greater. How tight the report's box is, the meshes tell
+    (test_meshes)."""
     (low, high), exact = np.array(found), np.array(expected)
     beyond = np.maximum(exact[0] - low, high - exact[1]).max()
     short = np.maximum(low - exact[0], exact[1] - high).max()

@@ -11,6 +11,7 @@ import os
 import shutil
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -39,9 +40,7 @@ def freecad(steps: list[Path], folder: Path) -> Findings:
     program = next(filter(None, map(shutil.which, ("freecadcmd", "FreeCADCmd"))), None)
     if program is None:
         raise AssertionError("freecadcmd is missing: run tests/install")
-    home = folder / "home"
-    home.mkdir()
-    return _ask([program, str(HERE / "freecad_witness.py")], steps, folder, FREECAD_USER_HOME=str(home))
+    return _ask([program, str(HERE / "freecad_witness.py")], steps, folder)
 
 
 def gmsh(steps: list[Path], folder: Path) -> Findings:
@@ -49,11 +48,25 @@ def gmsh(steps: list[Path], folder: Path) -> Findings:
     return _ask([sys.executable, str(HERE / "gmsh_witness.py")], steps, folder)
 
 
-def _ask(command: list[str], steps: list[Path], folder: Path, **environment: str) -> Findings:
-    jobs, answers = folder / "jobs.json", folder / "answers.jsonl"
+def _ask(command: list[str], steps: list[Path], folder: Path) -> Findings:
+    """A process a core; the greatest files are dealt out first."""
+    shares: list[list[Path]] = [[] for _ in range(min(len(steps), os.cpu_count() or 1))]
+    for step in sorted(steps, key=lambda step: step.stat().st_size, reverse=True):
+        min(shares, key=lambda share: sum(s.stat().st_size for s in share)).append(step)
+    with ThreadPoolExecutor() as pool:
+        found = list(
+            pool.map(lambda job: _work(command, job[1], folder / f"share{job[0]}"), enumerate(shares))
+        )
+    return Findings("".join(lines for lines, _ in found), "\n".join(output for _, output in found))
+
+
+def _work(command: list[str], steps: list[Path], folder: Path) -> tuple[str, str]:
+    """One process: the lines it wrote, and what it said."""
+    jobs, answers, home = folder / "jobs.json", folder / "answers.jsonl", folder / "home"
+    home.mkdir(parents=True)
     jobs.write_text(json.dumps([str(step) for step in steps]), encoding="utf-8")
     answers.touch()
-    environment |= {"WITNESS_JOBS": str(jobs), "WITNESS_ANSWERS": str(answers)}
+    environment = {"WITNESS_JOBS": str(jobs), "WITNESS_ANSWERS": str(answers), "FREECAD_USER_HOME": str(home)}
     done = subprocess.run(
         command,
         stdout=subprocess.PIPE,
@@ -65,4 +78,4 @@ def _ask(command: list[str], steps: list[Path], folder: Path, **environment: str
         timeout=1800,
         check=False,
     )
-    return Findings(answers.read_text(encoding="utf-8"), done.stdout)
+    return answers.read_text(encoding="utf-8"), done.stdout
