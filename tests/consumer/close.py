@@ -24,7 +24,12 @@ def assert_volume(found: float, expected: float, what: str, limit: float = VOLUM
     )
 
 
-def assert_box(found, expected: list[list[float]], what: str) -> None:
+def assert_box(found, expected: list[list[float]], what: str, limit: float = BOX_MM) -> None:
+    off = np.abs(np.array(found) - np.array(expected)).max()
+    assert off <= limit, f"{what}: box {np.array(found).tolist()}, the report says {expected}"
+
+
+def assert_held(found, expected: list[list[float]], what: str) -> None:
     """OpenCASCADE bounds the rectangle of each face's parameters, which may reach beyond the face's borders:
     its box holds the exact one, and is not much greater. How tight the report's box is, the meshes tell
     (test_meshes)."""

@@ -45,4 +45,4 @@ def test_millimetres(model, imported):
         boxes = [shape.bounding_box(optimal=True) for shape in imported[part]]
         low = np.min([tuple(box.min) for box in boxes], axis=0)
         high = np.max([tuple(box.max) for box in boxes], axis=0)
-        close.assert_box([low, high], model.box(part), part)
+        close.assert_held([low, high], model.box(part), part)

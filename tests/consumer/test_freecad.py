@@ -46,7 +46,7 @@ def test_volume(model, freecad):
 def test_bounding_box_in_mm(model, freecad):
     for part, step in files(model).items():
         boxes = np.array([thing["box"] for thing in freecad.of(step)["objects"]])
-        close.assert_box([boxes[:, 0].min(0), boxes[:, 1].max(0)], model.box(part), part)
+        close.assert_held([boxes[:, 0].min(0), boxes[:, 1].max(0)], model.box(part), part)
 
 
 def test_names(model, freecad):

@@ -71,7 +71,7 @@ def test_solids_make_up_the_uncooled_blade(model, products):
 def test_bounding_box_in_mm(model, products):
     for product in each(products):
         box = model.report["solids"][product.name]["bounding_box_mm"]
-        close.assert_box(measure.box(product.shape), [box["min"], box["max"]], product.name)
+        close.assert_held(measure.box(product.shape), [box["min"], box["max"]], product.name)
 
 
 def test_number_of_faces(model, products):

@@ -43,8 +43,9 @@ pub struct FitReport {
     /// JSON pointer to that point, relative to the blade; empty if there are no points.
     pub worst_point: String,
     /// Mean distance from the surface of a grid of points of the sides that it stands for, mm (medial sources: Eq. 28 of
-    /// their paper).
-    pub average_distance_mm: f64,
+    /// their paper); none for other sources.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub average_distance_mm: Option<f64>,
     /// Greatest distance of the surface's section curves from their stream surfaces, mm (sources with sections on
     /// stream surfaces).
     pub off_stream_surface_mm: f64,

@@ -54,7 +54,7 @@ fn error(design: &Value, degree: usize, counts: [usize; 2], knots: &str) -> Resu
     let source: BladeSource = serde_json::from_value(blade).map_err(read)?;
     let (_, blade) = build(&space, &source, Path::new("."))
         .map_err(|faults| faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))?;
-    Ok([blade.fit.average_distance_mm, blade.fit.greatest_distance_mm])
+    Ok([blade.fit.average_distance_mm.unwrap_or(f64::NAN), blade.fit.greatest_distance_mm])
 }
 
 fn main() -> Result<(), String> {

@@ -69,7 +69,7 @@ pub(super) fn blade(
     let outward = surface.is_outward();
     let fit = FitReport {
         greatest_distance_mm: deviation.greatest,
-        average_distance_mm: deviation.average,
+        average_distance_mm: Some(deviation.average),
         notes,
         ..assemble::report(&surface)
     };
