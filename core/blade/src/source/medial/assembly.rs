@@ -54,7 +54,7 @@ pub(super) fn blade(
             "the sides are {:.2e} mm off a surface of {count_u} x {count_v} control points: they change too fast",
             deviation.greatest
         );
-        let fault = Fault::new("/skin/tolerance", "no_surface", message);
+        let fault = Fault::new("/skin", "no_surface", message);
         return Err(vec![fault.value(spec.tolerance).min(deviation.greatest).unit("mm")]);
     }
     let nose = [pressure, finish.suction].map(|k| skin.place(k, finish.nose[k]));
