@@ -152,6 +152,16 @@ pub enum RowHoles {
     Pitch(f64),
 }
 
+impl RowHoles {
+    /// The number on a row of this length, mm.
+    pub fn on(self, length: f64) -> usize {
+        match self {
+            Self::Count(count) => count as usize,
+            Self::Pitch(pitch) => ((length / pitch).ceil() as usize).max(1),
+        }
+    }
+}
+
 /// Span fractions nearer than this are one.
 const LEAST_SPAN: f64 = 0.01;
 

@@ -192,3 +192,17 @@ fn a_serpentine_with_a_hundred_holes_and_slots() {
     assert_eq!(generated.report.genus["metal"].found, Some(108 + 12));
     assert_eq!(generated.report.genus["coolant/leading"].found, Some(0));
 }
+
+/// Film holes need no chambers: here they are fed by a radial hole of the C3X vane.
+#[test]
+fn film_holes_fed_by_a_radial_hole() {
+    let mut design = sample("c3x.json");
+    design["cooling"]["film_rows"] = json!([{
+        "name": "head", "side": "pressure_side", "surface_position": 0.02, "span": [0.2, 0.8], "count": 5,
+        "hole": round(1.0, 90.0, 0.0)
+    }]);
+    let design = Design::from_json(&design.to_string()).unwrap();
+    let generated = generate(&design, Path::new(".")).unwrap_or_else(|f| panic!("{f:?}"));
+    check(&generated, 5);
+    assert_eq!(generated.report.genus["metal"].found, Some(10 + 5));
+}

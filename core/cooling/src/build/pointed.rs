@@ -2,11 +2,11 @@
 
 use super::cap::Ring;
 use super::error::BuildError;
-use super::tube::{CutTube, Patch, crossing, upright_curve};
+use super::tube::{CutTube, Patch, crossing, upright_curve, upright_pcurve};
 use coolinggen_blade::StreamSurface;
-use coolinggen_brep::{Coedge, EdgeId, Face, Loop, Model, VertexId, straight_pcurve};
+use coolinggen_brep::{Coedge, EdgeId, Face, Loop, Model, VertexId};
 use coolinggen_nurbs::ParametricSurface;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 /// Adds the faces of a tube that is cut by `lower` and whose patches all end in `tip` at the upper end of v. Each face
 /// has three edges; the fourth side of its parameters is the tip.
@@ -42,13 +42,10 @@ pub(super) fn add_pointed_tube(
         let ((u0, u1), _) = patch.surface.domain();
         let (left, span) = uprights[k];
         let (right, right_span) = uprights[(k + 1) % count];
-        let upright = |u: f64, [start, end]: [f64; 2]| {
-            straight_pcurve(DVec2::new(u, start), DVec2::new(u, end), (start, end))
-        };
         let coedges = vec![
             Coedge { edge: ring[k], forward: true, pcurve: crossing.pcurve },
-            Coedge { edge: right, forward: true, pcurve: upright(u1, right_span)? },
-            Coedge { edge: left, forward: false, pcurve: upright(u0, span)? },
+            Coedge { edge: right, forward: true, pcurve: upright_pcurve(u1, right_span)? },
+            Coedge { edge: left, forward: false, pcurve: upright_pcurve(u0, span)? },
         ];
         faces.push(model.add_face(Face {
             name: patch.name,

@@ -5,7 +5,7 @@ use super::error::BuildError;
 use super::sections::Section;
 use super::style;
 use crate::bore::{BoreNames, BoreShape, Drill, Frame, Mouth, rounded_rectangle};
-use crate::plan::{RowHoles, SlotRowPlan};
+use crate::plan::SlotRowPlan;
 use coolinggen_blade::Fault;
 use coolinggen_brep::{CastHit, Caster, FaceId};
 use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve};
@@ -68,6 +68,9 @@ pub(super) fn add_slot_rows(
     tails: &[DVec3],
     rows: &[SlotRowPlan],
 ) -> Result<Vec<SlotGeometry>, BuildError> {
+    if rows.is_empty() {
+        return Ok(Vec::new());
+    }
     let edge = TrailingEdge::new(sections, tails)?;
     let casters = [
         Caster::new(blank.model, blank.passages.iter().flat_map(|p| p.faces.iter().copied())),
@@ -78,10 +81,7 @@ pub(super) fn add_slot_rows(
     for (k, row) in rows.iter().enumerate() {
         let ends = row.span.map(|v| edge.edge.point(v));
         let length = ends[0].distance(ends[1]);
-        let count = match row.slots {
-            RowHoles::Count(count) => count as usize,
-            RowHoles::Pitch(pitch) => ((length / pitch).ceil() as usize).max(1),
-        };
+        let count = row.slots.on(length);
         let land = (count > 1).then(|| length / count as f64 - row.height);
         if let Some(land) = land.filter(|land| !(*land > 0.0)) {
             let message = format!("slots of row \"{}\" overlap by {:.3} mm", row.name, -land);

@@ -83,14 +83,11 @@ pub(super) fn add_tube(
         let ((u0, u1), _) = patch.surface.domain();
         let (left, span) = uprights[k];
         let (right, right_span) = uprights[(k + 1) % count];
-        let upright = |u: f64, [start, end]: [f64; 2]| {
-            straight_pcurve(DVec2::new(u, start), DVec2::new(u, end), (start, end))
-        };
         let coedges = vec![
             Coedge { edge: ring_edges[0][k], forward: true, pcurve: low.pcurve },
-            Coedge { edge: right, forward: true, pcurve: upright(u1, right_span)? },
+            Coedge { edge: right, forward: true, pcurve: upright_pcurve(u1, right_span)? },
             Coedge { edge: ring_edges[1][k], forward: false, pcurve: high.pcurve },
-            Coedge { edge: left, forward: false, pcurve: upright(u0, span)? },
+            Coedge { edge: left, forward: false, pcurve: upright_pcurve(u0, span)? },
         ];
         faces.push(model.add_face(Face {
             name: patch.name,
@@ -101,6 +98,11 @@ pub(super) fn add_tube(
     }
     let rings = ring_edges.map(|edges| Ring { edges: edges.into_iter().map(|e| (e, true)).collect() });
     Ok(CutTube { faces, rings })
+}
+
+/// The straight parameter curve of an upright edge, whose curve has the domain `span`.
+pub(super) fn upright_pcurve(u: f64, [start, end]: [f64; 2]) -> Result<Curve<DVec2>, NurbsError> {
+    straight_pcurve(DVec2::new(u, start), DVec2::new(u, end), (start, end))
 }
 
 /// The line of constant u between two values of v, exact, with the vertices' points at its ends.

@@ -3,7 +3,7 @@
 use super::super::sides::{Sides, SurfacePoint};
 use crate::bore::{BoreShape, Frame, circle, rounded_rectangle, stretched_circle};
 use crate::design::HoleShape;
-use crate::plan::{FilmRowPlan, RowHoles};
+use crate::plan::FilmRowPlan;
 use coolinggen_blade::Fault;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
@@ -23,10 +23,7 @@ pub(super) struct Hole<'p> {
 /// The holes of a row from hub to tip.
 pub(super) fn holes<'p>(sides: &Sides<'_>, row: &'p FilmRowPlan, pointer: &str) -> Vec<Hole<'p>> {
     let length = sides.row_length(row.side, &row.at, row.span);
-    let count = match row.holes {
-        RowHoles::Count(count) => count as usize,
-        RowHoles::Pitch(pitch) => ((length / pitch).ceil() as usize).max(1),
-    };
+    let count = row.holes.on(length);
     let pitch = (count > 1).then(|| length / count as f64);
     (0..count)
         .map(|i| {

@@ -53,6 +53,9 @@ pub(super) fn add_film_rows(
     rows: &[FilmRowPlan],
     least: f64,
 ) -> Result<Vec<FilmHoleGeometry>, BuildError> {
+    if rows.is_empty() {
+        return Ok(Vec::new());
+    }
     let passage_faces = blank.passages.iter().flat_map(|p| p.faces.iter().copied());
     let caster = Caster::new(blank.model, passage_faces);
     let mut faults = Vec::new();
