@@ -1,7 +1,9 @@
 //! The plan: a design's cooling with its laws made ready and everything checked that needs no geometry.
 
+mod inner_bores;
 mod turns;
 
+pub use inner_bores::{CrossoverRowPlan, DustHolePlan, PinArrayPlan};
 pub use turns::{Chain, TurnPlan};
 
 use crate::design::{Chamber, Cooling, FilmRow, HolePlacement, HoleShape, Side, SlotRow};
@@ -25,7 +27,13 @@ pub struct Plan {
     pub film_rows: Vec<FilmRowPlan>,
     /// Rows of slots.
     pub slot_rows: Vec<SlotRowPlan>,
-    /// Least metal between neighbouring film holes, mm.
+    /// Rows of crossover holes.
+    pub crossover_rows: Vec<CrossoverRowPlan>,
+    /// Arrays of pins.
+    pub pin_arrays: Vec<PinArrayPlan>,
+    /// Dust holes.
+    pub dust_holes: Vec<DustHolePlan>,
+    /// Least metal between neighbouring holes, and least passage between neighbouring pins, mm.
     pub least_ligament: f64,
 }
 
@@ -233,8 +241,19 @@ impl Maker {
                 self.slot_row(row, !cooling.chambers.is_empty(), &root.at("slot_rows").at(i))
             })
             .collect();
-        let least_ligament = cooling.least_ligament;
-        Plan { shell, walls, chambers, turns, radial_holes, film_rows, slot_rows, least_ligament }
+        Plan {
+            shell,
+            walls,
+            chambers,
+            turns,
+            radial_holes,
+            film_rows,
+            slot_rows,
+            crossover_rows: self.crossover_rows(cooling, &root.at("crossover_rows")),
+            pin_arrays: self.pin_arrays(cooling, &root.at("pin_arrays")),
+            dust_holes: self.dust_holes(cooling, &root.at("dust_holes")),
+            least_ligament: cooling.least_ligament,
+        }
     }
 
     /// None, with faults, where the row's number is not said once.
@@ -288,9 +307,8 @@ impl Maker {
         let inclination_deg = self.law(&row.hole.inclination_deg, &hole.at("inclination_deg"));
         let compound_deg = self.law(&row.hole.compound_deg, &hole.at("compound_deg"));
         self.ordered_span(row.span, at);
-        if let Some(name) = row.chamber.as_ref().filter(|name| chambers.iter().all(|c| c.name != **name)) {
-            let message = format!("there is no chamber \"{name}\"");
-            self.faults.push(Fault::new(at.at("chamber"), "unknown_name", message).value(name.as_str()));
+        if let Some(name) = &row.chamber {
+            self.known("chamber", name, chambers.iter().map(|c| c.name.as_str()), &at.at("chamber"));
         }
         let at_side = self.one_of(placements, at, "surface_position, surface_distance or camber_position");
         let holes = self.one_of(numbers, at, "count or pitch");

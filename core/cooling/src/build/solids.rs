@@ -4,7 +4,6 @@ use super::cap::{Ring, add_cap, points_up};
 use super::error::BuildError;
 use super::passages::{Link, Passage, PassageEnd};
 use super::style;
-use super::tube::CutTube;
 use coolinggen_blade::{StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
 
@@ -28,6 +27,11 @@ pub(super) struct Caps {
 }
 
 impl Caps {
+    /// The tip face.
+    pub(super) fn tip(&self) -> Option<FaceUse> {
+        self.ends.get(1).copied()
+    }
+
     /// Faces that end a passage below the tip (1) or above the hub (0).
     pub(super) fn closed(&self) -> Vec<(FaceId, usize)> {
         let caps = self.passages.iter().flatten().filter(|cap| !cap.open);
@@ -35,12 +39,12 @@ impl Caps {
     }
 }
 
-/// Adds the faces that end the passages, and hub and tip with their openings.
+/// Adds the faces that end the passages, and hub and tip with their openings; `rings` are the outer surface's ends.
 pub(super) fn add_caps(
     model: &mut Model,
     space: &StreamSpace,
     ends: &[StreamSurface; 2],
-    outer: &CutTube,
+    rings: &[Ring; 2],
     passages: &[Passage],
 ) -> Result<Caps, BuildError> {
     let mut openings: [Vec<Ring>; 2] = [Vec::new(), Vec::new()];
@@ -77,12 +81,11 @@ pub(super) fn add_caps(
     }
     let mut end_faces = Vec::with_capacity(2);
     for (side, name) in [(0, "blade/hub"), (1, "blade/tip")] {
-        if outer.rings[side].edges.is_empty() {
+        if rings[side].edges.is_empty() {
             continue;
         }
         let stream = &ends[side];
-        let face =
-            add_cap(model, name.to_owned(), style::end(), stream, &outer.rings[side], &openings[side])?;
+        let face = add_cap(model, name.to_owned(), style::end(), stream, &rings[side], &openings[side])?;
         let forward = points_up(model, face, stream) == (side == 1);
         end_faces.push(FaceUse { face, forward });
     }

@@ -80,13 +80,8 @@ impl Maker {
     ) -> Option<TurnPlan> {
         let mut places = [0; 2];
         for (k, name) in turn.between.iter().enumerate() {
-            let Some(place) = chambers.iter().position(|c| c.name == *name) else {
-                let known: Vec<&str> = chambers.iter().map(|c| c.name.as_str()).collect();
-                let message = format!("there is no chamber \"{name}\"");
-                let fault = Fault::new(at.at("between").at(k), "unknown_name", message).value(name.as_str());
-                self.faults.push(fault.hint(format!("one of {}", known.join(", "))));
-                return None;
-            };
+            let known = chambers.iter().map(|c| c.name.as_str());
+            let place = self.known("chamber", name, known, &at.at("between").at(k))?;
             places[k] = place;
         }
         let front = places[0].min(places[1]);

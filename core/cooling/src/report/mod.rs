@@ -1,5 +1,6 @@
 //! The report of a built design: what it is, measured.
 
+mod inner_bores;
 mod passages;
 mod text;
 mod thickness;
@@ -12,6 +13,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use thickness::thinnest_walls;
 
+pub use inner_bores::{CrossoverReport, DustHoleReport, PinReport};
 pub use passages::{PartReport, PassageReport, StationReport};
 pub use thickness::ThinnestWall;
 
@@ -49,6 +51,15 @@ pub struct Report {
     /// The slots, row by row from hub to tip.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub slots: Vec<SlotReport>,
+    /// The crossover holes, row by row from hub to tip.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub crossovers: Vec<CrossoverReport>,
+    /// The pins, row by row from hub to tip.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pins: Vec<PinReport>,
+    /// The dust holes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub dust_holes: Vec<DustHoleReport>,
     /// How the outer surface compares with the data it was made from.
     pub blade_fit: FitReport,
     /// Time spent, milliseconds.
@@ -216,8 +227,13 @@ impl Report {
             wall_thickness_mm: None,
             passages: Vec::new(),
             radial_holes: Vec::new(),
-            holes: cooled.film_holes.iter().map(|hole| hole_report(hole, &integrals)).collect(),
-            slots: cooled.slots.iter().map(|slot| slot_report(slot, &integrals)).collect(),
+            holes: cooled.bores.film_holes.iter().map(|hole| hole_report(hole, &integrals)).collect(),
+            slots: cooled.bores.slots.iter().map(|slot| slot_report(slot, &integrals)).collect(),
+            crossovers: cooled.bores.crossovers.iter().map(CrossoverReport::new).collect(),
+            pins: cooled.bores.pins.iter().map(PinReport::new).collect(),
+            dust_holes: (cooled.bores.dust_holes.iter())
+                .map(|hole| DustHoleReport::new(hole, integrals[hole.breakout.0].area_mm2))
+                .collect(),
             blade_fit: blade.fit.clone(),
             timings_ms: Timings::default(),
         };
