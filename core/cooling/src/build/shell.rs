@@ -32,6 +32,12 @@ impl OffsetSection {
         let (Some(circle), Some(sharp)) = (&self.circle, &self.sharp_nose) else { return true };
         !sharp.contains(&circle.pressure) && !sharp.contains(&circle.suction)
     }
+
+    /// Why the leading chamber has no front of this radius, mm of the chart.
+    pub(super) fn nose_refusal(&self, needed: f64) -> Refusal {
+        let radius = self.camber.greatest_radius();
+        if radius <= needed { Refusal::ChamberVanishes { radius, needed } } else { Refusal::NoseTooSharp }
+    }
 }
 
 /// Smallest radii, mm in space, at which marching the offset's camber ends at (front, back).
@@ -60,17 +66,18 @@ pub(super) fn offset_section(
     let v = section.stream.v();
     let asked: Vec<f64> = grid.nodes.iter().map(|&u| asked_thickness(grid, shell, u, v)).collect();
     let refused = |refusal: &Refusal| BuildError::refused("/cooling/shell", v, refusal);
-    let room = room(section, 0.5 * (shell.pressure_side.at(v) + shell.suction_side.at(v)));
-    let vanishes = |needed: f64| refused(&Refusal::ChamberVanishes { radius: room.max(0.0), needed });
+    let thickness = 0.5 * (shell.pressure_side.at(v) + shell.suction_side.at(v));
+    let room = room(section);
+    let too_thick = |end: f64| refused(&Refusal::ShellTooThick { thickness, greatest: room - end, end });
     // Past the thickest circle no chamber is left, and none of what follows has a solution.
-    if room <= ends.front.min(ends.back) {
-        return Err(vanishes(ends.front.min(ends.back)));
+    if room - thickness <= ends.front.min(ends.back) {
+        return Err(too_thick(ends.front.min(ends.back)));
     }
     let (radii, step) = (ends.in_chart(section), section.march_step());
     let camber_of = |outline: &Outline| {
         Camber::of(outline, grid.nose, grid.leading_edge, radii, step).map_err(|refusal| match refusal {
-            Refusal::NoInscribedCircle if room <= ends.front.max(ends.back) => {
-                vanishes(ends.front.max(ends.back))
+            Refusal::NoInscribedCircle if room - thickness <= ends.front.max(ends.back) => {
+                too_thick(ends.front.max(ends.back))
             }
             other => refused(&other),
         })
@@ -149,10 +156,10 @@ pub(super) fn offset_section(
     Ok(OffsetSection { outline, camber, sharp_nose, circle })
 }
 
-/// About the radius, mm in space, of the thickest circle inside a shell of the given thickness.
-fn room(section: &Section, shell: f64) -> f64 {
+/// About the radius, mm in space, of the thickest circle inside the profile.
+fn room(section: &Section) -> f64 {
     let radius = |c: &Contact| c.radius * section.scale(c.center);
-    section.camber.contacts().iter().map(radius).fold(0.0, f64::max) - shell
+    section.camber.contacts().iter().map(radius).fold(0.0, f64::max)
 }
 
 /// Where, about the leading edge, the surface of the shell would be sharper than half the fillet radius, or not exist
