@@ -255,9 +255,11 @@ fn crossovers_that_do_not_fit_are_refused() {
 
 #[test]
 fn pins_that_do_not_fit_are_refused() {
-    let fault = refusal(&[("pin_arrays", pins([0.1, 0.9], [0.25, 0.4], 1.2, [0.9, 2.5]))]);
+    let fault = refusal(&[("pin_arrays", pins([0.1, 0.9], [0.25, 0.4], 1.2, [2.5, 0.4]))]);
     assert_eq!(fault.code, "ligament");
     assert!(fault.message.contains("of array \"p\" meets pin "), "{}", fault.message);
+    let fault = refusal(&[("pin_arrays", pins([0.1, 0.9], [0.25, 0.4], 0.05, [2.0, 2.0]))]);
+    assert_eq!((fault.code, fault.max), ("count", Some(10_000.0)));
     let near = [("pin_arrays", pins([0.1, 0.9], [0.25, 0.4], 1.2, [2.5, 2.5])), ("least_ligament", json!(2))];
     assert_eq!(refusal(&near).code, "ligament");
     // Into the wall, which a thinner pin would clear.

@@ -57,7 +57,7 @@ impl Wall {
         let (back_passage, back) = blank.chamber(&chambers[1])?;
         let flats = [front.faces[BACK[1]], back.faces[FRONT[1]]];
         let flats = flats.map(|face| blank.model.face(face).surface.clone());
-        let [(_, a), (_, b)] = [&flats[0], &flats[1]].map(|flat| flat.domain());
+        let [(_, a), (_, b)] = [&flats[0], &flats[1]].map(ParametricSurface::domain);
         Some(Self {
             passages: [front_passage, back_passage],
             faces: [BACK.map(|k| front.faces[k]).to_vec(), FRONT.map(|k| back.faces[k]).to_vec()],
@@ -120,6 +120,8 @@ impl Label<'_> {
 /// A crossover hole to be drilled.
 struct Crossover<'p> {
     label: Label<'p>,
+    passages: [usize; 2],
+    chambers: [String; 2],
     middle: DVec3,
     axis: DVec3,
     up: DVec3,
@@ -141,25 +143,23 @@ pub(super) fn add_crossover_rows(
     for row in &plan.crossover_rows {
         let Some(wall) = Wall::of(blank, plan, row.wall) else { continue };
         match holes(blank, &caster, &wall, row) {
-            Ok(holes) => {
-                planned.extend(holes.into_iter().map(|hole| (hole, wall.passages, wall.chambers.clone())))
-            }
+            Ok(holes) => planned.extend(holes),
             Err(refused) => faults.extend(refused),
         }
     }
-    let hulls = planned.iter().map(|(hole, ..)| (hole.hull(), hole.label.text()));
+    let hulls = planned.iter().map(|hole| (hole.hull(), hole.label.text()));
     let least = blank.least_ligament;
     let (ligaments, near) =
-        blank.ligaments.add(hulls, least, |i, what| planned[i].0.label.fault("ligament", what));
+        blank.ligaments.add(hulls, least, |i, what| planned[i].label.fault("ligament", what));
     faults.extend(near);
     if !faults.is_empty() {
         return Err(BuildError::Refused(faults));
     }
     let mut drill = Drill::default();
     let mut made = Vec::with_capacity(planned.len());
-    for ((hole, passages, chambers), ligament) in planned.iter().zip(ligaments) {
-        match hole.drill(blank, &mut drill, *passages) {
-            Ok(()) => made.push(hole.geometry(chambers.clone(), ligament)),
+    for (hole, ligament) in planned.iter().zip(ligaments) {
+        match hole.drill(blank, &mut drill) {
+            Ok(()) => made.push(hole.geometry(ligament)),
             Err(fault) => faults.push(fault),
         }
     }
@@ -241,7 +241,8 @@ impl<'p> Crossover<'p> {
                 None => fault.hint("another position or span"),
             });
         }
-        Ok(Self { label, middle, axis, up, diameter, mouths })
+        let (passages, chambers) = (wall.passages, wall.chambers.clone());
+        Ok(Self { label, passages, chambers, middle, axis, up, diameter, mouths })
     }
 
     fn height(&self) -> f64 {
@@ -257,7 +258,7 @@ impl<'p> Crossover<'p> {
         Hull::inside(ends, 0.5 * self.height())
     }
 
-    fn drill(&self, blank: &mut Blank<'_>, drill: &mut Drill, passages: [usize; 2]) -> Result<(), Fault> {
+    fn drill(&self, blank: &mut Blank<'_>, drill: &mut Drill) -> Result<(), Fault> {
         let outline = racetrack(self.mouths[0].z, 0.5 * self.diameter, self.label.row.height_d);
         let frame = Frame::along(self.middle, self.axis, self.up);
         let shape = BoreShape::straight(frame, outline, self.length());
@@ -265,16 +266,16 @@ impl<'p> Crossover<'p> {
         let style = style::crossover();
         let names = BoreNames { path: &path, stages: &["bore"], style: &style };
         blank
-            .bore_between(drill, &shape, passages, self.mouths, &names)
+            .bore_between(drill, &shape, self.passages, self.mouths, &names)
             .map(|_| ())
             .map_err(|error| self.label.fault(error.code(), error))
     }
 
-    fn geometry(&self, chambers: [String; 2], ligament: Option<f64>) -> CrossoverGeometry {
+    fn geometry(&self, ligament: Option<f64>) -> CrossoverGeometry {
         CrossoverGeometry {
             row: self.label.row.name.clone(),
             number: self.label.number,
-            chambers,
+            chambers: self.chambers.clone(),
             center: self.middle + self.axis * (0.5 * (self.mouths[0].z + self.mouths[1].z)),
             axis: self.axis,
             diameter: self.diameter,

@@ -114,6 +114,9 @@ fn beyond_chamber(array: &PinArrayPlan, [low, high]: [f64; 2]) -> Option<Fault> 
     Some(fault.value(beyond).min(low).max(high).unit("span fraction"))
 }
 
+/// Most pins of an array.
+const MOST: f64 = 10_000.0;
+
 /// The pins of an array, row by row, each from hub to tip.
 fn pins<'p>(
     net: &CamberNet<'_>,
@@ -124,6 +127,12 @@ fn pins<'p>(
     const SHORT: f64 = 1e-9;
     let [spanwise, streamwise] = array.pitches;
     let rows = net.least_length(array.camber[0], array.camber[1], array.span) / streamwise;
+    let count = (rows + 1.0) * (net.line(array.camber[0], 0.0)?.length(array.span) / spanwise + 1.0);
+    if !(count < MOST + 1.0) {
+        let message = format!("the array has about {count:.0} pins");
+        let fault = Fault::new(format!("/cooling/pin_arrays/{}", array.index), "count", message);
+        return Ok(vec![Err(Box::new(fault.value(count.floor()).max(MOST).unit("pins")))]);
+    }
     let mut out = Vec::new();
     for row in 0..=(rows + SHORT) as usize {
         let line = net.line(array.camber[0], row as f64 * streamwise)?;

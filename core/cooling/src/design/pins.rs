@@ -22,7 +22,7 @@ pub struct PinArray {
     #[schemars(range(min = 0.01, max = 100.0), extend("unit" = "mm"))]
     pub diameter: f64,
     /// S/D: distance between neighbouring pins of a row along the span, diameters.
-    #[schemars(range(min = 0.1, max = 1000.0), extend("unit" = "diameters"))]
+    #[schemars(range(min = 1.0, max = 1000.0), extend("unit" = "diameters"))]
     pub spanwise_pitch_d: f64,
     /// X/D: distance between neighbouring rows along the camber line, diameters.
     #[schemars(range(min = 0.1, max = 1000.0), extend("unit" = "diameters"))]
