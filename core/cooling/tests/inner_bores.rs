@@ -239,7 +239,14 @@ fn crossovers_that_do_not_fit_are_refused() {
         row["position"] = json!(1.0);
         row["skew_deg"] = json!(60);
     });
-    assert_eq!(fault.code, "meets_no_wall", "{fault}");
+    assert_eq!((fault.code, fault.pointer.as_str()), ("meets_no_wall", "/cooling/crossover_rows/0/skew_deg"));
+    // From the end of the flat the axis may run up to where it grazes the fillet, whose centre is 1.6 mm away.
+    let most = fault.max.unwrap();
+    assert!((most - (0.6f64 / 1.6).asin().to_degrees()).abs() < 0.5, "{most}");
+    // A wide hole much inclined, whose middle section pokes out of the wall.
+    let mut wide = row("r", "w1", 1, 3.0);
+    wide["inclination_deg"] = json!(50);
+    ok(with(plate(), &[("crossover_rows", json!([wide]))]));
     // Eight of 3 mm on 28 mm.
     let fault = lone(&|row| {
         row["count"] = json!(10);

@@ -11,7 +11,6 @@ use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle};
 use crate::plan::{PinArrayPlan, Plan};
 use coolinggen_blade::Fault;
 use coolinggen_brep::{CastHit, Caster};
-use coolinggen_nurbs::ParametricSurface;
 use glam::DVec3;
 
 /// A pin as built.
@@ -74,7 +73,7 @@ pub(super) fn add_pin_arrays(
     let net = CamberNet::new(&stack.sections);
     let (mut planned, mut faults) = (Vec::new(), Vec::new());
     for array in &plan.pin_arrays {
-        let Some((passage, chamber)) = blank.chamber(&plan.chambers[array.chamber].name) else { continue };
+        let (passage, chamber) = blank.chamber(&plan.chambers[array.chamber].name)?;
         if let Some(fault) = beyond_chamber(array, stack.spans.chambers[array.chamber]) {
             faults.push(fault);
             continue;
@@ -163,9 +162,7 @@ impl Room<'_> {
     /// Where a line from a point of the chamber leaves it; none where it does not, or the point lies outside.
     fn side(&self, from: DVec3, direction: DVec3) -> Option<CastHit> {
         let hit = self.caster.first(from, direction, 0.0)?;
-        let (_, u, v) = self.blank.model.face(hit.face).surface.first_derivatives(hit.at.x, hit.at.y);
-        let out = u.cross(v).dot(direction) > 0.0;
-        (out == self.blank.passages[self.passage].outward).then_some(hit)
+        self.blank.leaves(self.passage, &hit, direction).then_some(hit)
     }
 
     /// Whether a pin of this diameter stands in the chamber all round.
