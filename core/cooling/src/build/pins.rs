@@ -10,7 +10,7 @@ use super::style;
 use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle};
 use crate::plan::{PinArrayPlan, Plan};
 use coolinggen_blade::Fault;
-use coolinggen_brep::{CastHit, Caster};
+use coolinggen_brep::{CastHit, Caster, FaceId};
 use glam::DVec3;
 
 /// A pin as built.
@@ -79,7 +79,10 @@ pub(super) fn add_pin_arrays(
             continue;
         }
         let caster = Caster::new(blank.model, chamber.faces.iter().copied());
-        let room = Room { blank, caster, passage };
+        // The flat faces of its walls, in the order of a chamber's ring.
+        let (front, back) = (array.chamber > 0, array.chamber + 1 < plan.chambers.len());
+        let walls = [(front, 6), (back, 2)].map(|(wall, k)| wall.then(|| chamber.faces[k]));
+        let room = Room { blank, caster, passage, walls };
         for pin in pins(&net, &room, array)? {
             match pin {
                 Ok(pin) => planned.push(pin),
@@ -156,19 +159,23 @@ struct Room<'b> {
     /// Its own faces: what else a line from outside may meet first does not matter.
     caster: Caster,
     passage: usize,
+    /// Faces that no pin may end on: there it would be a part of the wall.
+    walls: [Option<FaceId>; 2],
 }
 
 impl Room<'_> {
-    /// Where a line from a point of the chamber leaves it; none where it does not, or the point lies outside.
+    /// Where a line from a point of the chamber leaves it; none where it does so through a wall, or the point lies
+    /// outside.
     fn side(&self, from: DVec3, direction: DVec3) -> Option<CastHit> {
         let hit = self.caster.first(from, direction, 0.0)?;
-        self.blank.leaves(self.passage, &hit, direction).then_some(hit)
+        let on_wall = self.walls.contains(&Some(hit.face));
+        (!on_wall && self.blank.leaves(self.passage, &hit, direction)).then_some(hit)
     }
 
     /// Whether a pin of this diameter stands in the chamber all round.
     fn holds(&self, at: &CamberPoint, diameter: f64) -> bool {
         let frame = Frame::along(at.point, at.normal, at.up);
-        let mut rim = circle(0.0, 0.5 * diameter).rim(12).into_iter().map(|q| frame.point(q, 0.0));
+        let mut rim = circle(0.0, 0.5 * diameter).rim(24).into_iter().map(|q| frame.point(q, 0.0));
         rim.all(|p| self.side(p, at.normal).is_some() && self.side(p, -at.normal).is_some())
     }
 }
@@ -183,7 +190,7 @@ impl<'p> Pin<'p> {
             let mouths = [mouth(low, -low.along), mouth(high, high.along)];
             return Ok(Self { label, at, passage: room.passage, mouths });
         }
-        let what = format!("does not stand between the sides of its chamber at span fraction {v:.4}");
+        let what = format!("does not stand clear between the sides of its chamber at span fraction {v:.4}");
         if let Some(most) = greatest(diameter, |d| room.holds(&at, d)) {
             let fault = label.fault("", "leaves_chamber", what).value(diameter).max(most);
             return Err(Box::new(fault.unit("mm").hint("a pin of this diameter would")));

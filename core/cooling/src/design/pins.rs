@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// An array of round pins between the sides of a chamber: rows along the span, one behind the other.
+/// An array of round pins between the sides of a chamber: rows along the span, one behind the other. They may end on
+/// the fillets beside the sides, not on a wall.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PinArray {
