@@ -21,7 +21,7 @@ pub use dust_holes::DustHole;
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
 pub use pins::PinArray;
 pub use radial_holes::{HolePlacement, RadialHole};
-pub use schema::{design_schema, schema_faults};
+pub use schema::{design_schema, faults_against, schema_faults};
 pub use slots::SlotRow;
 pub use turns::{Automatic, Clearance, Turn, TurnEnd};
 
