@@ -1,11 +1,12 @@
 //! What the coolant flows through: chains of chambers and turns, and radial holes, as faces with their end rings.
 
 use super::cap::Ring;
-use super::chambers::{RingSection, add_chamber, segment_names};
+use super::chambers::{RingSection, TubeLook, add_chamber, segment_names};
 use super::clearance::ChamberPolygon;
 use super::error::BuildError;
 use super::nodes::passage_nodes;
 use super::stack::Stack;
+use super::style;
 use super::tube::CutTube;
 use super::turns::{ShellCheck, TurnSite, add_turn};
 use crate::plan::Plan;
@@ -109,7 +110,9 @@ pub(super) fn add_chambers(
         let mut tubes = Vec::with_capacity(sections.len());
         for ((&k, sections), nodes) in chain.chambers.iter().zip(&sections).zip(&nodes) {
             let name = &plan.chambers[k].name;
-            tubes.push(add_chamber(model, name, face_names(plan, k), sections, nodes)?);
+            let names = face_names(plan, k, &format!("chamber/{name}"));
+            let look = TubeLook { names, style: style::chamber(name) };
+            tubes.push(add_chamber(model, &look, sections, nodes)?);
         }
         // A chamber ends where it has no turn; alone it ends at both sides.
         let away = |turn: Option<&usize>| turn.map(|&t| 1 - plan.turns[t].side());
@@ -152,12 +155,12 @@ pub(super) fn add_chambers(
     Ok((passages, polygons))
 }
 
-/// Names of a chamber's faces.
-fn face_names(plan: &Plan, k: usize) -> [String; SEGMENTS] {
+/// Names below a path of the faces of chamber `k` or of a tube in it.
+pub(super) fn face_names(plan: &Plan, k: usize, path: &str) -> [String; SEGMENTS] {
     let wall_name = |w: usize| format!("wall/{}", plan.walls[w].name);
     let front = if k == 0 { "leading_edge".to_owned() } else { wall_name(k - 1) };
     let back = if k + 1 == plan.chambers.len() { "trailing_edge".to_owned() } else { wall_name(k) };
-    segment_names(&plan.chambers[k].name, &front, &back)
+    segment_names(path, &front, &back)
 }
 
 /// The rings of chamber `k` in all sections of its span, and what is refused.
@@ -178,6 +181,14 @@ fn chamber_rings<'s>(stack: &'s Stack, plan: &Plan, k: usize) -> (Vec<RingSectio
 
 /// The ring of chamber `k` in section `i`, or what is refused.
 pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Box<Fault>> {
+    ring_of(stack, plan, k, i).map_err(|refusal| {
+        let at = blame(&format!("/cooling/chambers/{k}"), &refusal);
+        Box::new(BuildError::fault(&at, stack.sections[i].stream.v(), &refusal))
+    })
+}
+
+/// The ring of chamber `k` in section `i`; a refusal has its radii in space.
+pub(super) fn ring_of(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Refusal> {
     let offset = &stack.offsets[i];
     let [front, back] = closures(stack, plan, k, i);
     let request = RingRequest { outline: &offset.outline, camber: &offset.camber, front, back };
@@ -185,12 +196,8 @@ pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<
         0 if !offset.circle_is_clear() => Err(Refusal::NoseTooSharp),
         _ => chamber_ring(&request),
     };
-    ring.map_err(|refusal| {
-        let radius = plan.chambers[k].fillet_radius.at(stack.sections[i].stream.v());
-        let refusal = refusal.with_radius_in_space(radius);
-        let at = blame(&format!("/cooling/chambers/{k}"), &refusal);
-        Box::new(BuildError::fault(&at, stack.sections[i].stream.v(), &refusal))
-    })
+    let radius = plan.chambers[k].fillet_radius.at(stack.sections[i].stream.v());
+    ring.map_err(|refusal| refusal.with_radius_in_space(radius))
 }
 
 /// What closes chamber `k` in section `i` at its front and at its back.

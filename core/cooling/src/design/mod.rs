@@ -5,6 +5,7 @@
 
 mod chambers;
 mod film;
+mod inserts;
 mod radial_holes;
 mod read;
 mod schema;
@@ -14,10 +15,11 @@ mod turns;
 
 pub use chambers::{Chamber, Shell, Wall};
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
+pub use inserts::{Insert, InsertSide, JetArray};
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, schema_faults};
 pub use slots::SlotRow;
-pub use turns::{Automatic, Clearance, Turn, TurnEnd};
+pub use turns::{Automatic, Clearance, Turn, SpanEnd};
 
 use crate::plan::Plan;
 use coolinggen_blade::{BladeSource, Fault, SpaceSpec};
@@ -69,6 +71,10 @@ pub struct Cooling {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 64))]
     pub turns: Vec<Turn>,
+    /// Impingement inserts: sheet-metal tubes in chambers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 33))]
+    pub inserts: Vec<Insert>,
     /// Round passages straight from hub to tip.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]

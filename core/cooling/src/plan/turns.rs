@@ -1,7 +1,7 @@
 //! Turns and the passages they make of chambers.
 
 use super::{ChamberPlan, Maker};
-use crate::design::{Clearance, Cooling, Turn, TurnEnd};
+use crate::design::{Clearance, Cooling, Turn, SpanEnd};
 use coolinggen_blade::{Fault, Pointer};
 
 /// A turn; see [`crate::design::Turn`].
@@ -14,7 +14,7 @@ pub struct TurnPlan {
     /// The chamber before the wall; the next one lies behind it.
     pub front: usize,
     /// Where.
-    pub end: TurnEnd,
+    pub end: SpanEnd,
     /// Millimetres; none where the flow area decides.
     pub clearance: Option<f64>,
     /// Of the outer side's superellipse.
@@ -24,10 +24,7 @@ pub struct TurnPlan {
 impl TurnPlan {
     /// 0 at the hub, 1 at the tip.
     pub fn side(&self) -> usize {
-        match self.end {
-            TurnEnd::Hub => 0,
-            TurnEnd::Tip => 1,
-        }
+        self.end.side()
     }
 
     /// JSON pointer to the turn.
@@ -80,14 +77,7 @@ impl Maker {
     ) -> Option<TurnPlan> {
         let mut places = [0; 2];
         for (k, name) in turn.between.iter().enumerate() {
-            let Some(place) = chambers.iter().position(|c| c.name == *name) else {
-                let known: Vec<&str> = chambers.iter().map(|c| c.name.as_str()).collect();
-                let message = format!("there is no chamber \"{name}\"");
-                let fault = Fault::new(at.at("between").at(k), "unknown_name", message).value(name.as_str());
-                self.faults.push(fault.hint(format!("one of {}", known.join(", "))));
-                return None;
-            };
-            places[k] = place;
+            places[k] = self.chamber_named(name, chambers, &at.at("between").at(k))?;
         }
         let front = places[0].min(places[1]);
         if places[0].abs_diff(places[1]) != 1 {

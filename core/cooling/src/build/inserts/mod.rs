@@ -1,0 +1,149 @@
+//! Impingement inserts: a sheet in a chamber that parts its coolant into a plenum inside and a gap outside.
+//!
+//! Both faces of the sheet are chambers of a thicker shell between thicker walls (`walls.rs`), so that gap and thickness
+//! are right in space wherever the shell's thickness is.
+
+mod walls;
+
+use super::chambers::{TubeLook, add_chamber, add_parted};
+use super::error::BuildError;
+use super::nodes::passage_nodes;
+use super::passages::{Host, Passage, PassageEnd, PassagePart, face_names};
+use super::sections::Grid;
+use super::stack::Stack;
+use super::style;
+use super::tube::CutTube;
+use crate::plan::{InsertPlan, Plan, ShellPlan};
+use coolinggen_blade::{Blade, Fault, StreamSpace};
+use coolinggen_brep::{FaceId, Model};
+use walls::{Reach, SheetWall, sheet_walls};
+
+/// An insert in the model, with what its solid is made from; its plenum is a passage of its own.
+#[derive(Clone, Debug)]
+pub(super) struct Insert {
+    /// Name of its chamber.
+    pub(super) name: String,
+    /// Index of the passage round it, and of its plenum.
+    pub(super) passages: [usize; 2],
+    /// The end that is open: 0 at the hub, 1 at the tip.
+    pub(super) open: usize,
+    /// Span fraction of the plate's outer face.
+    pub(super) plate_v: f64,
+    /// Faces towards the gap.
+    pub(super) outside: Vec<FaceId>,
+    /// Faces towards the metal it stands in, if the gap is closed.
+    pub(super) seat: Option<CutTube>,
+    /// The rings of the tubes outside and inside, at the hub's and the tip's end.
+    pub(super) tubes: [CutTube; 2],
+}
+
+/// What inserts are built from.
+pub(super) struct InsertSite<'a> {
+    pub(super) blade: &'a Blade,
+    pub(super) space: &'a StreamSpace,
+    pub(super) grid: &'a Grid,
+    pub(super) plan: &'a Plan,
+    pub(super) shell: &'a ShellPlan,
+    pub(super) stack: &'a Stack,
+}
+
+/// Adds the faces of all inserts; each gains a passage, its plenum, and leaves its mark on the passage round it.
+pub(super) fn add_inserts(
+    model: &mut Model,
+    site: &InsertSite<'_>,
+    passages: &mut Vec<Passage>,
+) -> Result<Vec<Insert>, BuildError> {
+    let mut inserts = Vec::with_capacity(site.plan.inserts.len());
+    let mut faults = Vec::new();
+    for insert in &site.plan.inserts {
+        match add_insert(model, site, insert, passages, inserts.len()) {
+            Ok(made) => inserts.push(made),
+            Err(error) => match error.blamed_on(&insert.pointer()) {
+                BuildError::Refused(more) => faults.extend(more),
+                other => return Err(other),
+            },
+        }
+    }
+    if faults.is_empty() { Ok(inserts) } else { Err(BuildError::Refused(faults)) }
+}
+
+fn add_insert(
+    model: &mut Model,
+    site: &InsertSite<'_>,
+    insert: &InsertPlan,
+    passages: &mut Vec<Passage>,
+    index: usize,
+) -> Result<Insert, BuildError> {
+    let (k, open, closed) = (insert.chamber, insert.open(), insert.closed);
+    let name = site.plan.chambers[k].name.clone();
+    let found = passages.iter().enumerate().find_map(|(p, passage)| {
+        let end = passage.ends.iter().position(|end| end.side == open && end.name == name)?;
+        Some((p, end))
+    });
+    let (around, end) = found.ok_or_else(|| {
+        let message = format!("chamber \"{name}\" does not end where the insert opens");
+        BuildError::Refused(vec![Fault::new(insert.pointer(), "geometry", message)])
+    })?;
+    let reach = Reach::new(site, insert)?;
+    let [outer, inner] = sheet_walls(site, insert, &reach)?;
+    let path = format!("insert/{name}");
+    let look = |part: &str| TubeLook {
+        names: face_names(site.plan, k, &format!("{path}/{part}")),
+        style: style::insert(),
+    };
+    let (seat, outside) = outer_tube(model, &outer, [look("seat"), look("outside")], reach.seat, open)?;
+    let sections = inner.sections();
+    let inside = add_chamber(model, &look("inside"), &sections, &passage_nodes(&[&sections])?[0])?;
+
+    passages[around].ends[end].around = Some(outside.rings[open].clone());
+    let plenum = format!("{name}/plenum");
+    let end = |side: usize, v: f64| PassageEnd {
+        ring: inside.rings[side].clone(),
+        around: None,
+        side,
+        v,
+        name: plenum.clone(),
+        path: format!("{path}/inside"),
+        style: style::insert(),
+    };
+    let [first, last] = [0, 1].map(|side| end(side, if side == open { side as f64 } else { reach.inner }));
+    let faces = inside.faces.clone();
+    passages.push(Passage {
+        name: plenum.clone(),
+        faces: faces.clone(),
+        parts: vec![PassagePart { path: format!("{path}/inside"), turn: None, faces, reversed: open == 1 }],
+        outward: site.blade.outward,
+        ends: if open == 0 { [first, last] } else { [last, first] },
+        branches: Vec::new(),
+        host: Host::Insert(index),
+    });
+    Ok(Insert {
+        name,
+        passages: [around, passages.len() - 1],
+        open,
+        plate_v: reach.span[closed],
+        outside: outside.faces.clone(),
+        seat,
+        tubes: [outside, inside],
+    })
+}
+
+/// The tube outside, parted where it leaves its seat.
+fn outer_tube(
+    model: &mut Model,
+    wall: &SheetWall,
+    [seat_look, look]: [TubeLook; 2],
+    seat: Option<f64>,
+    open: usize,
+) -> Result<(Option<CutTube>, CutTube), BuildError> {
+    let sections = wall.sections();
+    let nodes = &passage_nodes(&[&sections])?[0];
+    let at = seat.and_then(|v| sections.iter().position(|s| s.stream.v() == v));
+    let Some(at) = at else { return Ok((None, add_chamber(model, &look, &sections, nodes)?)) };
+    let looks = if open == 0 { [&seat_look, &look] } else { [&look, &seat_look] };
+    Ok(match add_parted(model, looks, &sections, nodes, at)? {
+        (tube, None) => (None, tube),
+        (below, Some(above)) if open == 0 => (Some(below), above),
+        (below, Some(above)) => (Some(above), below),
+    })
+}

@@ -1,0 +1,179 @@
+//! The two faces of a sheet: the chamber's contour as it would be in a thicker shell between thicker walls.
+
+use super::super::chambers::RingSection;
+use super::super::error::BuildError;
+use super::super::passages::ring_of;
+use super::super::sections::{Section, span_fractions};
+use super::super::spans::{Spans, inside};
+use super::super::stack::Stack;
+use super::InsertSite;
+use crate::plan::{InsertPlan, Plan, ShellPlan};
+use crate::section::ChamberRing;
+use coolinggen_blade::{Fault, Law};
+
+/// Where an insert begins and ends.
+#[derive(Clone, Debug)]
+pub(super) struct Reach {
+    /// Span fractions of the tube outside, plate included.
+    pub(super) span: [f64; 2],
+    /// Span fraction of the plate's inner face.
+    pub(super) inner: f64,
+    /// Span fraction at which it leaves the metal that it stands in, if it does.
+    pub(super) seat: Option<f64>,
+}
+
+/// Least part of the span between seat and plate.
+const LEAST_SPAN: f64 = 0.01;
+
+impl Reach {
+    pub(super) fn new(site: &InsertSite<'_>, insert: &InsertPlan) -> Result<Self, BuildError> {
+        let (open, closed) = (insert.open(), insert.closed);
+        let chamber = site.stack.spans.chambers[insert.chamber];
+        let section = |v: f64| Section::new(site.blade, site.space, site.grid, v);
+        let gap = insert.gap.at(chamber[closed]);
+        let limit = inside(site.space, &section(chamber[closed])?, closed, gap)?;
+        let sign = [-1.0, 1.0][closed];
+        let end = insert.span.map_or(limit, |span| span[closed]);
+        let pointer = insert.pointer();
+        if sign * (end - limit) > 1e-12 {
+            let message = format!("the insert's end keeps less than its gap of {gap:.3} mm to the chamber's");
+            let fault = Fault::new(format!("{pointer}/span/{closed}"), "limit", message).value(end);
+            let fault = if closed == 1 { fault.max(limit) } else { fault.min(limit) };
+            return Err(BuildError::Refused(vec![fault.unit("span fraction")]));
+        }
+        let inner = inside(site.space, &section(end)?, closed, insert.thickness.bounds().1)?;
+        let start = chamber[open];
+        let length = sign * (inner - start);
+        if !(length >= LEAST_SPAN) {
+            let message = format!("the insert leaves a plenum over {length:.4} of the span");
+            let fault = Fault::new(format!("{pointer}/span"), "no_room", message).value(length).min(LEAST_SPAN);
+            return Err(BuildError::Refused(vec![fault.unit("span fraction")]));
+        }
+        let edge = open as f64;
+        let mut span = [edge; 2];
+        span[closed] = end;
+        Ok(Self { span, inner, seat: (start != edge).then_some(start) })
+    }
+
+    /// Span fractions of the sections of the tube outside.
+    fn outer_fractions(&self) -> Vec<f64> {
+        let beyond_seat = self.seat.map(|seat| if seat < self.inner { [seat, self.span[1]] } else { [self.span[0], seat] });
+        let spans: Vec<[f64; 2]> = [self.span].into_iter().chain(beyond_seat).collect();
+        span_fractions(&spans)
+    }
+
+    /// Span fractions of the tube inside.
+    fn inner_span(&self) -> [f64; 2] {
+        // The plate's inner face takes the place of its outer one.
+        self.span.map(|v| if v == 0.0 || v == 1.0 { v } else { self.inner })
+    }
+}
+
+/// One face of a sheet: its contour on every section.
+#[derive(Debug)]
+pub(super) struct SheetWall {
+    stack: Stack,
+    rings: Vec<ChamberRing>,
+}
+
+impl SheetWall {
+    /// The contours on their stream surfaces.
+    pub(super) fn sections(&self) -> Vec<RingSection<'_>> {
+        let sections = self.stack.sections.iter().zip(&self.stack.offsets);
+        (sections.zip(&self.rings))
+            .map(|((s, o), ring)| RingSection { stream: &s.stream, outline: &o.outline, ring: ring.clone() })
+            .collect()
+    }
+}
+
+/// The faces towards the gap and towards the plenum.
+///
+/// # Errors
+/// A refusal with the greatest gap or thickness that fits.
+pub(super) fn sheet_walls(
+    site: &InsertSite<'_>,
+    insert: &InsertPlan,
+    reach: &Reach,
+) -> Result<[SheetWall; 2], BuildError> {
+    let cut = |fractions: Vec<f64>| -> Result<Vec<Section>, BuildError> {
+        fractions.iter().map(|&v| Section::new(site.blade, site.space, site.grid, v)).collect()
+    };
+    let (gap, thickness, corner) = (&insert.gap, &insert.thickness, &insert.corner_radius);
+    let sections = cut(reach.outer_fractions())?;
+    let zero = Law::constant(0.0);
+    let wall = |factor: f64| sheet_wall(site, insert, &sections, &zero.plus(factor, gap), corner);
+    let outside = wall(1.0).map_err(|error| refusal(error, insert, "gap", gap, |factor| wall(factor).is_ok()))?;
+    let sections = cut(span_fractions(&[reach.inner_span()]))?;
+    let wall = |factor: f64| {
+        let (depth, corner) = (gap.plus(factor, thickness), corner.plus(-factor, thickness));
+        sheet_wall(site, insert, &sections, &depth, &corner)
+    };
+    let inside = wall(1.0)
+        .map_err(|error| refusal(error, insert, "thickness", thickness, |factor| wall(factor).is_ok()))?;
+    Ok([outside, inside])
+}
+
+/// The contour of the insert's chamber at some depth behind its faces, with corners of the given radius.
+fn sheet_wall(
+    site: &InsertSite<'_>,
+    insert: &InsertPlan,
+    sections: &[Section],
+    depth: &Law,
+    corner: &Law,
+) -> Result<SheetWall, BuildError> {
+    let shell = ShellPlan {
+        suction_side: site.shell.suction_side.plus(1.0, depth),
+        pressure_side: site.shell.pressure_side.plus(1.0, depth),
+        ..site.shell.clone()
+    };
+    let mut plan = Plan { walls: site.plan.walls.clone(), chambers: site.plan.chambers.clone(), ..Plan::default() };
+    plan.walls.iter_mut().for_each(|wall| wall.thickness = wall.thickness.plus(2.0, depth));
+    plan.chambers.iter_mut().for_each(|chamber| chamber.fillet_radius = corner.clone());
+    let span = [sections[0].stream.v(), sections[sections.len() - 1].stream.v()];
+    let spans = Spans { chambers: vec![span; plan.chambers.len()], turns: Vec::new() };
+    let k = insert.chamber;
+    // Only the leading chamber has a nose.
+    let front = (k == 0).then_some(span);
+    let stack = Stack::through(site.blade, site.grid, sections.to_vec(), spans, &plan, &shell, front)?;
+    let mut rings = Vec::with_capacity(sections.len());
+    let mut faults = Vec::new();
+    for (i, section) in sections.iter().enumerate() {
+        match ring_of(&stack, &plan, k, i) {
+            Ok(ring) => rings.push(ring),
+            Err(refusal) => {
+                let at = format!("{}/corner_radius", insert.pointer());
+                faults.push(BuildError::fault(&at, section.stream.v(), &refusal));
+            }
+        }
+    }
+    if faults.is_empty() { Ok(SheetWall { stack, rings }) } else { Err(BuildError::worst(faults)) }
+}
+
+/// What is refused, said of the gap or the thickness, with the greatest that fits; of the corners where not even a
+/// thousandth of it does.
+fn refusal(
+    error: BuildError,
+    insert: &InsertPlan,
+    field: &str,
+    law: &Law,
+    fits: impl Fn(f64) -> bool,
+) -> BuildError {
+    const LEAST: f64 = 1e-3;
+    const ROUNDS: usize = 10;
+    let BuildError::Refused(faults) = error else { return error };
+    let Some(first) = faults.first() else { return BuildError::Refused(faults) };
+    if !fits(LEAST) {
+        let at = format!("{}/corner_radius", insert.pointer());
+        let fault = Fault { pointer: at, ..first.clone() };
+        return BuildError::Refused(vec![fault]);
+    }
+    let (mut low, mut high) = (LEAST, 1.0);
+    for _ in 0..ROUNDS {
+        let middle = 0.5 * (low + high);
+        *(if fits(middle) { &mut low } else { &mut high }) = middle;
+    }
+    let value = law.bounds().1;
+    let message = format!("the sheet does not fit into its chamber: {}", first.message);
+    let fault = Fault::new(format!("{}/{field}", insert.pointer()), "no_room", message);
+    BuildError::Refused(vec![fault.value(value).max(low * value).unit("mm")])
+}
