@@ -83,9 +83,7 @@ impl Drill {
             }
         }
         // From here on the model changes.
-        let crossed = [0, 1].map(|side| split_borders(model, &end_legs[side]));
-        let [crossed_lower, crossed_upper] = crossed;
-        let crossed = [crossed_lower?, crossed_upper?];
+        let crossed = split_borders(model, &end_legs)?;
         let mut rings = Vec::with_capacity(last + 1);
         for section in 0..=last {
             let side = if section == 0 {
@@ -261,23 +259,29 @@ fn leg_of<'l>(legs: &'l [Leg], piece: &Piece) -> &'l Leg {
     legs.iter().find(|leg| middle <= leg.to).unwrap_or(&legs[legs.len() - 1])
 }
 
-/// Splits the borders that one end crosses; answers with path, parameter and vertex of each crossing.
-fn split_borders(model: &mut Model, end_legs: &[Vec<Leg>]) -> Result<Vec<(usize, f64, VertexId)>, BoreError> {
+/// Splits the borders that both ends cross; answers with path, parameter and vertex of each end's crossings.
+fn split_borders(
+    model: &mut Model,
+    end_legs: &[Vec<Vec<Leg>>; 2],
+) -> Result<[Vec<(usize, f64, VertexId)>; 2], BoreError> {
     let mut crossings = Vec::new();
-    for (path, legs) in end_legs.iter().enumerate() {
-        crossings.extend(legs.iter().filter_map(|leg| leg.crossing.map(|c| (path, leg.face, c))));
+    for (side, paths) in end_legs.iter().enumerate() {
+        for (path, legs) in paths.iter().enumerate() {
+            crossings.extend(legs.iter().filter_map(|leg| leg.crossing.map(|c| (side, path, leg.face, c))));
+        }
     }
-    let mut out = Vec::with_capacity(crossings.len());
+    let mut out = [Vec::new(), Vec::new()];
     for i in 0..crossings.len() {
-        let (path, from, crossing) = crossings[i];
+        let (side, path, from, crossing) = crossings[i];
         let added = EdgeId(model.edges.len());
         let vertex = model.split_edge(crossing.edge, crossing.edge_t, &[from, crossing.to])?;
-        for (_, _, later) in &mut crossings[i + 1..] {
+        // Both ends of a short bore may cross one border.
+        for (_, _, _, later) in &mut crossings[i + 1..] {
             if later.edge == crossing.edge && later.edge_t > crossing.edge_t {
                 later.edge = added;
             }
         }
-        out.push((path, crossing.t, vertex));
+        out[side].push((path, crossing.t, vertex));
     }
     Ok(out)
 }

@@ -12,7 +12,7 @@ mod ring;
 mod shape;
 mod target;
 
-pub(crate) use build::{BoreNames, Drill};
+pub(crate) use build::{BoreNames, Bored, Drill};
 pub(crate) use ligament::{Hull, Neighbour, neighbours};
 pub(crate) use shape::{BoreShape, Frame, circle, rounded_rectangle, stretched_circle};
 pub(crate) use target::Mouth;

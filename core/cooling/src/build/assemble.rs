@@ -1,7 +1,6 @@
-//! Solids from faces: the metal, and a coolant solid for every passage.
+//! From plan to solids, step by step: outer surface, passages, bores, caps, solids.
 
 use super::blank::Blank;
-use super::cap::{Ring, add_cap, points_up};
 use super::clearance::{self, ChamberPolygon};
 use super::error::BuildError;
 use super::film::{FilmHoleGeometry, add_film_rows};
@@ -12,17 +11,19 @@ use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section, span_fractions};
 use super::sides::Sides;
 use super::slots::{SlotGeometry, add_slot_rows};
+use super::solids::{add_caps, add_solids};
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
 use super::turns::{ShellCheck, settled, sites};
 use crate::plan::Plan;
 use coolinggen_blade::{Blade, Fault, StreamSpace, StreamSurface};
-use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
+use coolinggen_brep::{FaceId, Model};
 
 /// A built design.
 #[derive(Clone, Debug)]
 pub struct CooledBlade {
-    /// The B-rep: solid `metal`, and `coolant/<passage>` for every passage.
+    /// The B-rep: solid `metal`, and `coolant/<passage>` for every passage; passages that bores join are one solid,
+    /// `coolant/<passage>+<passage>`.
     pub model: Model,
     /// Faces of the outer surface, and of the breakouts in it.
     pub outer_faces: Vec<FaceId>,
@@ -53,7 +54,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let ends = [space.surface(0.0)?, space.surface(1.0)?];
     let mut outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
     let (mut passages, mut radial_holes) = (Vec::new(), Vec::new());
-    let (mut film_holes, mut slots) = (Vec::new(), Vec::new());
+    let (mut film_holes, mut slots, mut links) = (Vec::new(), Vec::new(), Vec::new());
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
         if blade.surface.tip().is_some() {
             let message = "this blade ends in a point: there is no tip that passages could open at";
@@ -90,16 +91,19 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
                 model: &mut model,
                 outer,
                 passages: &mut passages,
+                links: Vec::new(),
                 outward,
                 ends: &ends,
                 parts: Vec::new(),
             };
             film_holes = add_film_rows(&mut blank, &sides, &plan.film_rows, plan.least_ligament)?;
             slots = add_slot_rows(&mut blank, &sections, &tails, &plan.slot_rows)?;
+            links = blank.links;
         }
     }
     let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
-    let caps = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
+    let caps = add_caps(&mut model, space, &ends, &outer, &passages)?;
+    add_solids(&mut model, blade.outward, &outer.faces, &passages, &links, &caps);
     let parts = passages.into_iter().filter(|p| !p.parts.is_empty());
     let parts = parts.map(|p| PassageParts { name: p.name, parts: p.parts }).collect();
     let mut outer_faces = outer.faces;
@@ -110,8 +114,8 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         passages: parts,
         outer_faces,
         passage_faces,
-        end_faces: caps.open,
-        closed_ends: caps.closed,
+        end_faces: caps.ends.iter().map(|used| used.face).collect(),
+        closed_ends: caps.closed(),
         end_surfaces: ends,
         radial_holes,
         film_holes,
@@ -159,6 +163,7 @@ fn add_radial_holes(
             outward: true,
             ends: [end(lower, 0, 0.0), end(upper, 1, 1.0)],
             branches: Vec::new(),
+            pins: Vec::new(),
         })
     });
     passages.collect()
@@ -193,101 +198,4 @@ fn add_blade(model: &mut Model, blade: &Blade, ends: [&StreamSurface; 2]) -> Res
         Some(tip) => add_pointed_tube(model, patches, ends[0], tip),
         None => add_tube(model, patches, ends),
     }
-}
-
-/// Hub and tip face, and the faces that end passages inside.
-struct Ends {
-    open: Vec<FaceId>,
-    closed: Vec<(FaceId, usize)>,
-}
-
-/// Caps and solids.
-fn add_solids(
-    model: &mut Model,
-    blade: &Blade,
-    space: &StreamSpace,
-    ends: &[StreamSurface; 2],
-    outer: &CutTube,
-    passages: &[Passage],
-) -> Result<Ends, BuildError> {
-    let mut closed_ends = Vec::new();
-    let mut metal = Shell::default();
-    let mut voids = Vec::new();
-    let mut coolants = Vec::new();
-    let mut openings: [Vec<Ring>; 2] = [Vec::new(), Vec::new()];
-    metal.faces.extend(outer.faces.iter().map(|&face| FaceUse { face, forward: blade.outward }));
-    let mut through = 0;
-    for passage in passages {
-        let mut own = Shell {
-            faces: passage.faces.iter().map(|&face| FaceUse { face, forward: !passage.outward }).collect(),
-        };
-        let mut coolant = Shell {
-            faces: passage.faces.iter().map(|&face| FaceUse { face, forward: passage.outward }).collect(),
-        };
-        for branch in &passage.branches {
-            let faces = branch.faces.iter();
-            own.faces.extend(faces.clone().map(|&(face, outward)| FaceUse { face, forward: !outward }));
-            coolant.faces.extend(faces.map(|&(face, outward)| FaceUse { face, forward: outward }));
-            coolant.faces.extend(&branch.ends);
-        }
-        let both_open = passage.ends.iter().all(PassageEnd::is_open);
-        let count = passage.ends.iter().filter(|end| end.is_open()).count()
-            + passage.branches.iter().filter(|b| !b.ends.is_empty()).count();
-        let one_side = passage.ends[0].side == passage.ends[1].side;
-        for (i, end) in passage.ends.iter().enumerate() {
-            let (open, side) = (end.is_open(), end.side);
-            let middle;
-            let stream = if open {
-                &ends[side]
-            } else {
-                middle = space.surface(end.v)?;
-                &middle
-            };
-            // Where both ends open on one side, the first chamber's is the inlet.
-            let enters = if both_open && one_side { i == 0 } else { side == 0 };
-            let (name, style) = match (open, enters, side) {
-                (true, true, _) => (format!("coolant/inlet/{}", end.name), style::inlet()),
-                (true, false, _) => (format!("coolant/outlet/{}", end.name), style::outlet()),
-                (false, _, 0) => (format!("{}/hub_end", end.path), style::chamber(&end.name)),
-                (false, _, _) => (format!("{}/tip_end", end.path), style::chamber(&end.name)),
-            };
-            let cap = add_cap(model, name, style, stream, &end.ring, &[])?;
-            let forward = points_up(model, cap, stream) == (side == 1);
-            coolant.faces.push(FaceUse { face: cap, forward });
-            if open {
-                openings[side].push(end.ring.clone());
-            } else {
-                own.faces.push(FaceUse { face: cap, forward: !forward });
-                closed_ends.push((cap, side));
-            }
-        }
-        if count > 0 {
-            metal.faces.extend(own.faces);
-        } else {
-            voids.push(own);
-        }
-        // The first opening makes a pocket of the passage, every other one a handle.
-        through += count.saturating_sub(1);
-        coolants.push(Solid {
-            name: format!("coolant/{}", passage.name),
-            shells: vec![coolant],
-            expected_genus: 0,
-        });
-    }
-    let mut end_faces = Vec::new();
-    for (side, name) in [(0, "blade/hub"), (1, "blade/tip")] {
-        if outer.rings[side].edges.is_empty() {
-            continue;
-        }
-        let stream = &ends[side];
-        let cap = add_cap(model, name.to_owned(), style::end(), stream, &outer.rings[side], &openings[side])?;
-        let forward = points_up(model, cap, stream) == (side == 1);
-        metal.faces.push(FaceUse { face: cap, forward });
-        end_faces.push(cap);
-    }
-    let mut shells = vec![metal];
-    shells.extend(voids);
-    model.solids.push(Solid { name: "metal".into(), shells, expected_genus: through });
-    model.solids.extend(coolants);
-    Ok(Ends { open: end_faces, closed: closed_ends })
 }

@@ -1,8 +1,8 @@
 //! What bores are drilled into: the outer surface and the passages.
 
-use super::passages::{Branch, Passage};
+use super::passages::{Branch, Link, Passage};
 use super::style;
-use crate::bore::{BoreError, BoreNames, BoreShape, Drill, Mouth};
+use crate::bore::{BoreError, BoreNames, BoreShape, Bored, Drill, Mouth};
 use coolinggen_blade::StreamSurface;
 use coolinggen_brep::{Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
 use coolinggen_nurbs::{ParametricCurve, ParametricSurface, Surface};
@@ -14,12 +14,23 @@ pub(super) struct Blank<'a> {
     /// Faces of the outer surface; grows where bores part them.
     pub(super) outer: &'a mut Vec<FaceId>,
     pub(super) passages: &'a mut [Passage],
+    /// Bores that join passages.
+    pub(super) links: Vec<Link>,
     /// Whether the outer faces' natural normals point out of the blade.
     pub(super) outward: bool,
     /// Hub and tip.
     pub(super) ends: &'a [StreamSurface; 2],
     /// Faces that bores have split off, each with the face whose surface it shares.
     pub(super) parts: Vec<(FaceId, FaceId)>,
+}
+
+/// What a bore ends on.
+#[derive(Clone, Copy)]
+enum Side {
+    /// The faces of this passage.
+    Passage(usize),
+    /// The outer surface.
+    Outer,
 }
 
 impl Blank<'_> {
@@ -30,20 +41,11 @@ impl Blank<'_> {
         drill: &mut Drill,
         shape: &BoreShape,
         passage: usize,
-        [inner, outer]: [Mouth; 2],
+        mouths: [Mouth; 2],
         names: &BoreNames<'_>,
     ) -> Result<Vec<FaceId>, BoreError> {
-        let [inner, outer] =
-            [inner, outer].map(|mouth| Mouth { face: self.part_at(mouth.face, mouth.at), ..mouth });
-        let faces = &self.passages[passage].faces;
-        let bored = drill.bore(self.model, shape, [(faces, inner), (self.outer, outer)], names)?;
-        let [lower, upper] = bored.imprints;
-        self.passages[passage].faces.extend(lower.parts.iter().map(|(part, _)| *part));
-        self.outer.extend(upper.parts.iter().map(|(part, _)| *part));
-        for (part, from) in lower.parts.into_iter().chain(upper.parts) {
-            let whole = self.parts.iter().find(|(known, _)| *known == from).map_or(from, |(_, whole)| *whole);
-            self.parts.push((part, whole));
-        }
+        let bored = self.bore(drill, shape, [Side::Passage(passage), Side::Outer], mouths, names)?;
+        let [_, upper] = bored.imprints;
         let mut exits = Vec::with_capacity(1);
         for (i, (parent, border)) in upper.inside.into_iter().enumerate() {
             let room = self.room_to_ends(&border);
@@ -60,6 +62,67 @@ impl Blank<'_> {
         let ends = exits.iter().map(|&face| FaceUse { face, forward: self.outward }).collect();
         self.passages[passage].branches.push(Branch { faces: bored.faces, ends });
         Ok(exits)
+    }
+
+    /// Bores through the material between two bodies of coolant, or between two places of one: they become one coolant
+    /// solid, or a passage with a handle more. Answers with the bore's faces, each with whether its natural normal
+    /// points out of the coolant.
+    pub(super) fn bore_between(
+        &mut self,
+        drill: &mut Drill,
+        shape: &BoreShape,
+        passages: [usize; 2],
+        mouths: [Mouth; 2],
+        names: &BoreNames<'_>,
+    ) -> Result<Vec<(FaceId, bool)>, BoreError> {
+        let bored = self.bore(drill, shape, passages.map(Side::Passage), mouths, names)?;
+        self.links.push(Link { passages, faces: bored.faces.clone() });
+        Ok(bored.faces)
+    }
+
+    /// A pin through a passage: metal inside the bore, coolant round it.
+    pub(super) fn pin(
+        &mut self,
+        drill: &mut Drill,
+        shape: &BoreShape,
+        passage: usize,
+        mouths: [Mouth; 2],
+        names: &BoreNames<'_>,
+    ) -> Result<(), BoreError> {
+        let bored = self.bore(drill, shape, [Side::Passage(passage); 2], mouths, names)?;
+        let faces = bored.faces.into_iter().map(|(face, away)| (face, !away)).collect();
+        self.passages[passage].pins.push(faces);
+        Ok(())
+    }
+
+    /// Bores between the faces of two sides and keeps the parts that it makes of them.
+    fn bore(
+        &mut self,
+        drill: &mut Drill,
+        shape: &BoreShape,
+        sides: [Side; 2],
+        mouths: [Mouth; 2],
+        names: &BoreNames<'_>,
+    ) -> Result<Bored, BoreError> {
+        let [lower, upper] = mouths.map(|mouth| Mouth { face: self.part_at(mouth.face, mouth.at), ..mouth });
+        let faces = |side: Side| match side {
+            Side::Passage(passage) => &self.passages[passage].faces[..],
+            Side::Outer => &self.outer[..],
+        };
+        let ends = [(faces(sides[0]), lower), (faces(sides[1]), upper)];
+        let bored = drill.bore(self.model, shape, ends, names)?;
+        for (side, imprint) in sides.into_iter().zip(&bored.imprints) {
+            let faces = match side {
+                Side::Passage(passage) => &mut self.passages[passage].faces,
+                Side::Outer => &mut *self.outer,
+            };
+            faces.extend(imprint.parts.iter().map(|(part, _)| *part));
+            for &(part, from) in &imprint.parts {
+                let known = self.parts.iter().find(|(known, _)| *known == from);
+                self.parts.push((part, known.map_or(from, |(_, whole)| *whole)));
+            }
+        }
+        Ok(bored)
     }
 
     /// The part of a face that holds a place in its parameters.

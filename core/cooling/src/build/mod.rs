@@ -18,6 +18,7 @@ mod sections;
 mod shell;
 mod sides;
 mod slots;
+mod solids;
 mod spans;
 mod stack;
 mod style;

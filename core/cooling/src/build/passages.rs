@@ -50,6 +50,8 @@ pub(super) struct Passage {
     pub(super) ends: [PassageEnd; 2],
     /// Bores that leave it.
     pub(super) branches: Vec<Branch>,
+    /// Pins that stand in it: their faces, each with whether its natural normal points out of the coolant.
+    pub(super) pins: Vec<Vec<(FaceId, bool)>>,
 }
 
 /// An end of a passage.
@@ -73,6 +75,14 @@ pub(super) struct Branch {
     pub(super) faces: Vec<(FaceId, bool)>,
     /// What closes the coolant at its end.
     pub(super) ends: Vec<FaceUse>,
+}
+
+/// A bore through the material between two passages, or between two places of one.
+#[derive(Clone, Debug)]
+pub(super) struct Link {
+    pub(super) passages: [usize; 2],
+    /// Its faces, each with whether its natural normal points out of the coolant.
+    pub(super) faces: Vec<(FaceId, bool)>,
 }
 
 impl PassageEnd {
@@ -150,6 +160,7 @@ pub(super) fn add_chambers(
             outward: blade.outward,
             ends: [end(first, &tubes[0], sides[0]), end(last, &tubes[tubes.len() - 1], sides[1])],
             branches: Vec::new(),
+            pins: Vec::new(),
         });
     }
     Ok((passages, polygons))
