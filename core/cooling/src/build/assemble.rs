@@ -4,14 +4,15 @@ use super::blank::Blank;
 use super::clearance::{self, ChamberPolygon};
 use super::error::BuildError;
 use super::film::{FilmHoleGeometry, add_film_rows};
-use super::passages::{Passage, PassageEnd, PassageParts, add_chambers};
+use super::inserts::{InsertSite, add_inserts};
+use super::passages::{Host, Passage, PassageEnd, PassageParts, add_chambers};
 use super::pointed::add_pointed_tube;
 use super::probe::Probe;
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section, span_fractions};
 use super::sides::Sides;
 use super::slots::{SlotGeometry, add_slot_rows};
-use super::solids::{add_caps, add_solids};
+use super::solids::{SolidParts, add_caps, add_solids};
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
 use super::turns::{ShellCheck, settled, sites};
@@ -55,6 +56,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let mut outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
     let (mut passages, mut radial_holes) = (Vec::new(), Vec::new());
     let (mut film_holes, mut slots, mut links) = (Vec::new(), Vec::new(), Vec::new());
+    let mut inserts = Vec::new();
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
         if blade.surface.tip().is_some() {
             let message = "this blade ends in a point: there is no tip that passages could open at";
@@ -70,6 +72,8 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
             let check = ShellCheck { probe: Probe::new(blade), blade, space, shell };
             (passages, polygons) =
                 add_chambers(&mut model, blade, &stack, plan, &turns, &check).map_err(blamed)?;
+            let site = InsertSite { blade, space, grid: &grid, plan, shell, stack: &stack };
+            inserts = add_inserts(&mut model, &site, &mut passages)?;
             tails = stack.tails();
             sections = stack.sections;
         }
@@ -91,6 +95,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
                 model: &mut model,
                 outer,
                 passages: &mut passages,
+                inserts: &mut inserts,
                 links: Vec::new(),
                 outward,
                 ends: &ends,
@@ -101,9 +106,18 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
             links = blank.links;
         }
     }
-    let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
-    let caps = add_caps(&mut model, space, &ends, &outer, &passages)?;
-    add_solids(&mut model, blade.outward, &outer.faces, &passages, &links, &caps);
+    let in_metal = passages.iter().filter(|p| p.host == Host::Metal);
+    let passage_faces = in_metal.flat_map(|p| p.faces.iter().copied()).collect();
+    let caps = add_caps(&mut model, space, &ends, &outer, &passages, &inserts)?;
+    let parts = SolidParts {
+        outward: blade.outward,
+        outer: &outer.faces,
+        passages: &passages,
+        inserts: &inserts,
+        links: &links,
+        caps: &caps,
+    };
+    add_solids(&mut model, &parts);
     let parts = passages.into_iter().filter(|p| !p.parts.is_empty());
     let parts = parts.map(|p| PassageParts { name: p.name, parts: p.parts }).collect();
     let mut outer_faces = outer.faces;
@@ -151,10 +165,12 @@ fn add_radial_holes(
         let [lower, upper] = rings;
         let end = |ring, side, v| PassageEnd {
             ring,
+            inserted: None,
             side,
             v,
             name: hole.name.clone(),
             path: format!("radial_hole/{}", hole.name),
+            style: style::radial_hole(),
         };
         Ok(Passage {
             name: hole.name.clone(),
@@ -164,6 +180,7 @@ fn add_radial_holes(
             ends: [end(lower, 0, 0.0), end(upper, 1, 1.0)],
             branches: Vec::new(),
             pins: Vec::new(),
+            host: Host::Metal,
         })
     });
     passages.collect()

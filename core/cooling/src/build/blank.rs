@@ -1,6 +1,7 @@
 //! What bores are drilled into: the outer surface and the passages.
 
-use super::passages::{Branch, Link, Passage};
+use super::inserts::Insert;
+use super::passages::{Branch, Host, Link, Passage};
 use super::style;
 use crate::bore::{BoreError, BoreNames, BoreShape, Bored, Drill, Mouth};
 use coolinggen_blade::StreamSurface;
@@ -14,6 +15,7 @@ pub(super) struct Blank<'a> {
     /// Faces of the outer surface; grows where bores part them.
     pub(super) outer: &'a mut Vec<FaceId>,
     pub(super) passages: &'a mut [Passage],
+    pub(super) inserts: &'a mut [Insert],
     /// Bores that join passages.
     pub(super) links: Vec<Link>,
     /// Whether the outer faces' natural normals point out of the blade.
@@ -29,6 +31,8 @@ pub(super) struct Blank<'a> {
 enum Side {
     /// The faces of this passage.
     Passage(usize),
+    /// The faces of this insert towards the gap.
+    Insert(usize),
     /// The outer surface.
     Outer,
 }
@@ -76,8 +80,23 @@ impl Blank<'_> {
         names: &BoreNames<'_>,
     ) -> Result<Vec<(FaceId, bool)>, BoreError> {
         let bored = self.bore(drill, shape, passages.map(Side::Passage), mouths, names)?;
-        self.links.push(Link { passages, faces: bored.faces.clone() });
+        self.links.push(Link { passages, faces: bored.faces.clone(), host: Host::Metal });
         Ok(bored.faces)
+    }
+
+    /// Bores through the sheet of an insert, from its plenum (the first mouth) to the gap.
+    pub(super) fn bore_jet(
+        &mut self,
+        drill: &mut Drill,
+        shape: &BoreShape,
+        insert: usize,
+        mouths: [Mouth; 2],
+        names: &BoreNames<'_>,
+    ) -> Result<(), BoreError> {
+        let [gap, plenum] = self.inserts[insert].passages;
+        let bored = self.bore(drill, shape, [Side::Passage(plenum), Side::Insert(insert)], mouths, names)?;
+        self.links.push(Link { passages: [gap, plenum], faces: bored.faces, host: Host::Insert(insert) });
+        Ok(())
     }
 
     /// A pin through a passage: metal inside the bore, coolant round it.
@@ -107,6 +126,7 @@ impl Blank<'_> {
         let [lower, upper] = mouths.map(|mouth| Mouth { face: self.part_at(mouth.face, mouth.at), ..mouth });
         let faces = |side: Side| match side {
             Side::Passage(passage) => &self.passages[passage].faces[..],
+            Side::Insert(insert) => &self.inserts[insert].outside[..],
             Side::Outer => &self.outer[..],
         };
         let ends = [(faces(sides[0]), lower), (faces(sides[1]), upper)];
@@ -114,6 +134,7 @@ impl Blank<'_> {
         for (side, imprint) in sides.into_iter().zip(&bored.imprints) {
             let faces = match side {
                 Side::Passage(passage) => &mut self.passages[passage].faces,
+                Side::Insert(insert) => &mut self.inserts[insert].outside,
                 Side::Outer => &mut *self.outer,
             };
             faces.extend(imprint.parts.iter().map(|(part, _)| *part));

@@ -9,6 +9,7 @@ mod chambers;
 mod clearance;
 mod error;
 mod film;
+mod inserts;
 mod nodes;
 mod passages;
 mod pointed;

@@ -12,7 +12,7 @@ use super::turns::{ShellCheck, TurnSite, add_turn};
 use crate::plan::Plan;
 use crate::section::{ChamberRing, ClosureKind, Refusal, RingRequest, SEGMENTS, WallRequest, chamber_ring};
 use coolinggen_blade::{Blade, Fault};
-use coolinggen_brep::{FaceId, FaceUse, Model};
+use coolinggen_brep::{FaceId, FaceUse, Model, Style};
 
 /// The parts of a passage in the order in which the coolant runs through them.
 #[derive(Clone, Debug)]
@@ -52,12 +52,25 @@ pub(super) struct Passage {
     pub(super) branches: Vec<Branch>,
     /// Pins that stand in it: their faces, each with whether its natural normal points out of the coolant.
     pub(super) pins: Vec<Vec<(FaceId, bool)>>,
+    /// What it runs through.
+    pub(super) host: Host,
+}
+
+/// The solid that a passage or a bore runs through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Host {
+    /// The blade.
+    Metal,
+    /// This insert.
+    Insert(usize),
 }
 
 /// An end of a passage.
 #[derive(Clone, Debug)]
 pub(super) struct PassageEnd {
     pub(super) ring: Ring,
+    /// The ring of an insert that stands in it.
+    pub(super) inserted: Option<Ring>,
     /// Side of the span: 0 the hub's, 1 the tip's.
     pub(super) side: usize,
     /// Span fraction of the ring; 0 is open at the hub, 1 at the tip.
@@ -66,6 +79,8 @@ pub(super) struct PassageEnd {
     pub(super) name: String,
     /// Path of its faces, e.g. `chamber/leading`.
     pub(super) path: String,
+    /// How it looks where it is closed.
+    pub(super) style: Style,
 }
 
 /// A bore that leaves a passage.
@@ -83,6 +98,8 @@ pub(super) struct Link {
     pub(super) passages: [usize; 2],
     /// Its faces, each with whether its natural normal points out of the coolant.
     pub(super) faces: Vec<(FaceId, bool)>,
+    /// What it runs through.
+    pub(super) host: Host,
 }
 
 impl PassageEnd {
@@ -147,10 +164,12 @@ pub(super) fn add_chambers(
         let (first, last) = (chain.chambers[0], chain.chambers[chain.chambers.len() - 1]);
         let end = |k: usize, tube: &CutTube, side: usize| PassageEnd {
             ring: tube.rings[side].clone(),
+            inserted: None,
             side,
             v: stack.spans.chambers[k][side],
             name: plan.chambers[k].name.clone(),
             path: format!("chamber/{}", plan.chambers[k].name),
+            style: style::chamber(&plan.chambers[k].name),
         };
         passages.push(Passage {
             name: plan.chambers[first].name.clone(),
@@ -161,6 +180,7 @@ pub(super) fn add_chambers(
             ends: [end(first, &tubes[0], sides[0]), end(last, &tubes[tubes.len() - 1], sides[1])],
             branches: Vec::new(),
             pins: Vec::new(),
+            host: Host::Metal,
         });
     }
     Ok((passages, polygons))

@@ -33,6 +33,8 @@ pub(super) struct Insert {
     pub(super) outside: Vec<FaceId>,
     /// Faces towards the metal it stands in, if the gap is closed.
     pub(super) seat: Option<CutTube>,
+    /// Whether its faces' natural normals point out of the tube.
+    pub(super) outward: bool,
     /// The rings of the tubes outside and inside, at the hub's and the tip's end.
     pub(super) tubes: [CutTube; 2],
 }
@@ -95,11 +97,11 @@ fn add_insert(
     let sections = inner.sections();
     let inside = add_chamber(model, &look("inside"), &sections, &passage_nodes(&[&sections])?[0])?;
 
-    passages[around].ends[end].around = Some(outside.rings[open].clone());
+    passages[around].ends[end].inserted = Some(outside.rings[open].clone());
     let plenum = format!("{name}/plenum");
     let end = |side: usize, v: f64| PassageEnd {
         ring: inside.rings[side].clone(),
-        around: None,
+        inserted: None,
         side,
         v,
         name: plenum.clone(),
@@ -115,6 +117,7 @@ fn add_insert(
         outward: site.blade.outward,
         ends: if open == 0 { [first, last] } else { [last, first] },
         branches: Vec::new(),
+        pins: Vec::new(),
         host: Host::Insert(index),
     });
     Ok(Insert {
@@ -124,6 +127,7 @@ fn add_insert(
         plate_v: reach.span[closed],
         outside: outside.faces.clone(),
         seat,
+        outward: site.blade.outward,
         tubes: [outside, inside],
     })
 }
