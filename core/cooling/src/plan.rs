@@ -180,6 +180,13 @@ impl Plan {
         let plan = maker.plan(cooling, &root);
         if maker.faults.is_empty() { Ok(plan) } else { Err(maker.faults) }
     }
+
+    /// Whether anything is bored.
+    pub fn has_bores(&self) -> bool {
+        !self.film_rows.is_empty()
+            || !self.slot_rows.is_empty()
+            || self.inserts.iter().any(|insert| !insert.jets.is_empty())
+    }
 }
 
 /// Collects faults while it makes the plan; a part with faults gets a stand-in.

@@ -4,7 +4,7 @@ use super::blank::Blank;
 use super::clearance::{self, ChamberPolygon};
 use super::error::BuildError;
 use super::film::{FilmHoleGeometry, add_film_rows};
-use super::inserts::{InsertSite, add_inserts};
+use super::inserts::{InsertGeometry, InsertSite, JetGeometry, add_inserts, add_jets};
 use super::passages::{Host, Passage, PassageEnd, PassageParts, add_chambers};
 use super::pointed::add_pointed_tube;
 use super::probe::Probe;
@@ -44,6 +44,10 @@ pub struct CooledBlade {
     pub film_holes: Vec<FilmHoleGeometry>,
     /// The slots, row by row.
     pub slots: Vec<SlotGeometry>,
+    /// The inserts.
+    pub inserts: Vec<InsertGeometry>,
+    /// The jets, insert by insert and array by array.
+    pub jets: Vec<JetGeometry>,
 }
 
 /// Builds metal and coolant.
@@ -56,7 +60,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let mut outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
     let (mut passages, mut radial_holes) = (Vec::new(), Vec::new());
     let (mut film_holes, mut slots, mut links) = (Vec::new(), Vec::new(), Vec::new());
-    let mut inserts = Vec::new();
+    let (mut inserts, mut jets) = (Vec::new(), Vec::new());
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
         if blade.surface.tip().is_some() {
             let message = "this blade ends in a point: there is no tip that passages could open at";
@@ -81,7 +85,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
             radial_holes = place_radial_holes(blade, space, &grid, plan, &polygons)?;
             passages.extend(add_radial_holes(&mut model, &radial_holes, &ends)?);
         }
-        if !plan.film_rows.is_empty() || !plan.slot_rows.is_empty() {
+        if plan.has_bores() {
             if sections.is_empty() {
                 let fractions = span_fractions(&[[0.0, 1.0]]);
                 sections = fractions
@@ -103,6 +107,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
             };
             film_holes = add_film_rows(&mut blank, &sides, &plan.film_rows, plan.least_ligament)?;
             slots = add_slot_rows(&mut blank, &sections, &tails, &plan.slot_rows)?;
+            jets = add_jets(&mut blank, &plan.inserts)?;
             links = blank.links;
         }
     }
@@ -118,6 +123,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         caps: &caps,
     };
     add_solids(&mut model, &parts);
+    let inserts = inserts.iter().map(|insert| insert.geometry(&passages)).collect();
     let parts = passages.into_iter().filter(|p| !p.parts.is_empty());
     let parts = parts.map(|p| PassageParts { name: p.name, parts: p.parts }).collect();
     let mut outer_faces = outer.faces;
@@ -134,6 +140,8 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         radial_holes,
         film_holes,
         slots,
+        inserts,
+        jets,
     })
 }
 

@@ -29,6 +29,7 @@ mod turns;
 pub use assemble::{CooledBlade, build};
 pub use error::BuildError;
 pub use film::FilmHoleGeometry;
+pub use inserts::{InsertGeometry, JetGeometry};
 pub use passages::{PassagePart, PassageParts};
 pub(crate) use probe::Probe;
 pub use radial_holes::RadialHoleGeometry;

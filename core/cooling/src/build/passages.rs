@@ -32,6 +32,8 @@ pub struct PassagePart {
     pub turn: Option<usize>,
     /// Its eight faces in the order of the ring; the second parameter of their surfaces runs along the passage.
     pub faces: Vec<FaceId>,
+    /// Faces of an insert that stands in it, in the same order; none where there is no insert.
+    pub inserted: Vec<FaceId>,
     /// Whether that parameter runs against the coolant.
     pub reversed: bool,
 }
@@ -148,7 +150,7 @@ pub(super) fn add_chambers(
         let mut from = sides[0];
         for (i, (&k, tube)) in chain.chambers.iter().zip(&tubes).enumerate() {
             let (path, faces) = (format!("chamber/{}", plan.chambers[k].name), tube.faces.clone());
-            parts.push(PassagePart { path, turn: None, faces, reversed: from == 1 });
+            parts.push(PassagePart { path, turn: None, faces, inserted: Vec::new(), reversed: from == 1 });
             from = 1 - from;
             if let Some(&t) = chain.turns.get(i) {
                 let faces = add_turn(model, &turns[t], [tube, &tubes[i + 1]], check)?;
@@ -157,6 +159,7 @@ pub(super) fn add_chambers(
                     path,
                     turn: Some(plan.turns[t].side()),
                     faces,
+                    inserted: Vec::new(),
                     reversed: plan.turns[t].side() == 0,
                 });
             }

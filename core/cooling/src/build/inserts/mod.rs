@@ -3,6 +3,7 @@
 //! Both faces of the sheet are chambers of a thicker shell between thicker walls (`walls.rs`), so that gap and thickness
 //! are right in space wherever the shell's thickness is.
 
+mod jets;
 mod walls;
 
 use super::chambers::{TubeLook, add_chamber, add_parted};
@@ -16,6 +17,8 @@ use super::tube::CutTube;
 use crate::plan::{InsertPlan, Plan, ShellPlan};
 use coolinggen_blade::{Blade, Fault, StreamSpace};
 use coolinggen_brep::{FaceId, Model};
+pub use jets::JetGeometry;
+pub(super) use jets::add_jets;
 use walls::{Reach, SheetWall, sheet_walls};
 
 /// An insert in the model, with what its solid is made from; its plenum is a passage of its own.
@@ -37,6 +40,33 @@ pub(super) struct Insert {
     pub(super) outward: bool,
     /// The rings of the tubes outside and inside, at the hub's and the tip's end.
     pub(super) tubes: [CutTube; 2],
+}
+
+/// An insert as built.
+#[derive(Clone, Debug)]
+pub struct InsertGeometry {
+    /// Name of its chamber.
+    pub name: String,
+    /// All faces of the sheet towards the gap.
+    pub sheet: Vec<FaceId>,
+    /// The eight faces of the chamber, in the order of the ring; the second parameter of their surfaces is the span
+    /// fraction.
+    pub chamber: Vec<FaceId>,
+    /// The same of the tube outside, less where bores have parted them.
+    pub outside: Vec<FaceId>,
+    /// The same of the tube inside.
+    pub inside: Vec<FaceId>,
+}
+
+impl Insert {
+    /// What of it is to be measured.
+    pub(super) fn geometry(&self, passages: &[Passage]) -> InsertGeometry {
+        let chamber = format!("chamber/{}", self.name);
+        let parts = &passages[self.passages[0]].parts;
+        let chamber = parts.iter().find(|p| p.path == chamber).map_or(Vec::new(), |p| p.faces.clone());
+        let [outside, inside] = self.tubes.each_ref().map(|tube| tube.faces.clone());
+        InsertGeometry { name: self.name.clone(), sheet: self.outside.clone(), chamber, outside, inside }
+    }
 }
 
 /// What inserts are built from.
@@ -108,12 +138,16 @@ fn add_insert(
         path: format!("{path}/inside"),
         style: style::insert(),
     };
+    let chamber = format!("chamber/{name}");
+    for part in passages[around].parts.iter_mut().filter(|part| part.path == chamber) {
+        part.inserted = outside.faces.clone();
+    }
     let [first, last] = [0, 1].map(|side| end(side, if side == open { side as f64 } else { reach.inner }));
     let faces = inside.faces.clone();
     passages.push(Passage {
         name: plenum.clone(),
         faces: faces.clone(),
-        parts: vec![PassagePart { path: format!("{path}/inside"), turn: None, faces, reversed: open == 1 }],
+        parts: vec![PassagePart { path: format!("{path}/inside"), turn: None, faces, inserted: Vec::new(), reversed: open == 1 }],
         outward: site.blade.outward,
         ends: if open == 0 { [first, last] } else { [last, first] },
         branches: Vec::new(),
