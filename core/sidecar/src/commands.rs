@@ -102,6 +102,7 @@ fn write_solids(options: &GenerateOptions, generated: &Generated) -> Result<(), 
     for choice in &options.solids {
         let (part, chosen) = match choice {
             SolidChoice::Metal => ("metal", "metal"),
+            SolidChoice::Insert => ("insert", "insert/"),
             SolidChoice::Coolant => ("coolant", "coolant/"),
             SolidChoice::Assembly => ("assembly", ""),
         };

@@ -72,8 +72,9 @@ pub(super) fn add_caps(
                 middle = space.surface(end.v)?;
                 &middle
             };
-            // Where both ends open on one side, the first chamber's is the inlet.
-            let enters = if both_open && one_side { i == 0 } else { side == 0 };
+            // Where both ends open on one side, the first chamber's is the inlet. A plenum has no other opening.
+            let plenum = passage.host != Host::Metal;
+            let enters = if both_open && one_side { i == 0 } else { side == 0 || plenum };
             let (name, style) = match (open, enters, side) {
                 (true, true, _) => (format!("coolant/inlet/{}", end.name), style::inlet()),
                 (true, false, _) => (format!("coolant/outlet/{}", end.name), style::outlet()),
