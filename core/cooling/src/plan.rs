@@ -1,8 +1,10 @@
 //! The plan: a design's cooling with its laws made ready and everything checked that needs no geometry.
 
+mod inner_bores;
 mod inserts;
 mod turns;
 
+pub use inner_bores::{CrossoverRowPlan, DustHolePlan, PinArrayPlan};
 pub use inserts::{InsertPlan, JetArrayPlan};
 pub use turns::{Chain, TurnPlan};
 
@@ -29,7 +31,13 @@ pub struct Plan {
     pub film_rows: Vec<FilmRowPlan>,
     /// Rows of slots.
     pub slot_rows: Vec<SlotRowPlan>,
-    /// Least metal between neighbouring film holes, mm.
+    /// Rows of crossover holes.
+    pub crossover_rows: Vec<CrossoverRowPlan>,
+    /// Arrays of pins.
+    pub pin_arrays: Vec<PinArrayPlan>,
+    /// Dust holes.
+    pub dust_holes: Vec<DustHolePlan>,
+    /// Least metal between neighbouring holes, and least passage between neighbouring pins, mm.
     pub least_ligament: f64,
 }
 
@@ -180,13 +188,6 @@ impl Plan {
         let plan = maker.plan(cooling, &root);
         if maker.faults.is_empty() { Ok(plan) } else { Err(maker.faults) }
     }
-
-    /// Whether anything is bored.
-    pub fn has_bores(&self) -> bool {
-        !self.film_rows.is_empty()
-            || !self.slot_rows.is_empty()
-            || self.inserts.iter().any(|insert| !insert.jets.is_empty())
-    }
 }
 
 /// Collects faults while it makes the plan; a part with faults gets a stand-in.
@@ -245,8 +246,20 @@ impl Maker {
                 self.slot_row(row, !cooling.chambers.is_empty(), &root.at("slot_rows").at(i))
             })
             .collect();
-        let least_ligament = cooling.least_ligament;
-        Plan { shell, walls, chambers, turns, inserts, radial_holes, film_rows, slot_rows, least_ligament }
+        Plan {
+            shell,
+            walls,
+            chambers,
+            turns,
+            inserts,
+            radial_holes,
+            film_rows,
+            slot_rows,
+            crossover_rows: self.crossover_rows(cooling, &root.at("crossover_rows")),
+            pin_arrays: self.pin_arrays(cooling, &root.at("pin_arrays")),
+            dust_holes: self.dust_holes(cooling, &root.at("dust_holes")),
+            least_ligament: cooling.least_ligament,
+        }
     }
 
     /// None, with faults, where the row's number is not said once.
@@ -300,9 +313,8 @@ impl Maker {
         let inclination_deg = self.law(&row.hole.inclination_deg, &hole.at("inclination_deg"));
         let compound_deg = self.law(&row.hole.compound_deg, &hole.at("compound_deg"));
         self.ordered_span(row.span, at);
-        if let Some(name) = row.chamber.as_ref().filter(|name| chambers.iter().all(|c| c.name != **name)) {
-            let message = format!("there is no chamber \"{name}\"");
-            self.faults.push(Fault::new(at.at("chamber"), "unknown_name", message).value(name.as_str()));
+        if let Some(name) = &row.chamber {
+            self.known("chamber", name, chambers.iter().map(|c| c.name.as_str()), &at.at("chamber"));
         }
         let at_side = self.one_of(placements, at, "surface_position, surface_distance or camber_position");
         let holes = self.one_of(numbers, at, "count or pitch");

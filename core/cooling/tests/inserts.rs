@@ -84,7 +84,8 @@ fn without_jets_the_plenum_is_a_solid_of_its_own() {
         }
         // The sheet parts the coolant; where it stands in a seat the metal loses what the seat takes, and no more.
         let chamber_volume = plain.report.solids[&format!("coolant/{chamber}")].volume_mm3;
-        let parts = [format!("insert/{chamber}"), format!("coolant/{chamber}/plenum"), format!("coolant/{chamber}")];
+        let parts =
+            [format!("insert/{chamber}"), format!("coolant/{chamber}/plenum"), format!("coolant/{chamber}")];
         let volume: f64 = parts.iter().map(|name| solids[name].volume_mm3).sum();
         let metal = plain.report.solids["metal"].volume_mm3 - solids["metal"].volume_mm3;
         assert!((volume - chamber_volume - metal).abs() < 1e-9 * chamber_volume);
@@ -109,7 +110,9 @@ fn a_seat_closes_the_gap() {
 #[test]
 fn jets_join_plenum_and_gap() {
     let jets = json!([
-        array("ss", "suction_side", 3, 6), array("ps", "pressure_side", 2, 5), array("head", "front", 2, 7)
+        array("ss", "suction_side", 3, 6),
+        array("ps", "pressure_side", 2, 5),
+        array("head", "front", 2, 7)
     ]);
     let generated = built(json!([with_jets(insert("leading", 0.6), jets)]));
     let n = 3 * 6 + 2 * 5 + 2 * 7;
@@ -171,11 +174,16 @@ fn refusal(inserts: Value) -> Fault {
 
 #[test]
 fn what_does_not_fit_is_refused_with_what_would() {
-    for (field, chamber) in [("gap", "middle"), ("thickness", "leading"), ("gap", "trailing"), ("thickness", "middle")] {
+    for (field, chamber) in
+        [("gap", "middle"), ("thickness", "leading"), ("gap", "trailing"), ("thickness", "middle")]
+    {
         let mut wide = insert(chamber, 0.3);
         wide[field] = json!(6.0);
         let fault = refusal(json!([wide]));
-        assert_eq!((fault.pointer.as_str(), fault.code), (&*format!("/cooling/inserts/0/{field}"), "no_room"));
+        assert_eq!(
+            (fault.pointer.as_str(), fault.code),
+            (&*format!("/cooling/inserts/0/{field}"), "no_room")
+        );
         let greatest = fault.max.unwrap();
         assert!(greatest > 0.1 && greatest < 6.0, "{field} of {chamber}: {greatest}");
         wide[field] = json!(greatest);

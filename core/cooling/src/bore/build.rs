@@ -2,6 +2,7 @@
 
 use super::BoreError;
 use super::legs::{Leg, legs};
+use super::rims::Rim;
 use super::ring::{Interpolators, Stretch, Trace};
 use super::shape::{BoreShape, Path};
 use super::target::{Mouth, Ray, Target};
@@ -9,7 +10,7 @@ use coolinggen_brep::{
     Coedge, EdgeId, Face, FaceId, Imprint, Loop, LoopEdges, Model, Plane, RingPiece, Style, SurfaceGeometry,
     VertexId, straight_pcurve,
 };
-use coolinggen_nurbs::{Curve, Knots, ParametricSurface, Surface};
+use coolinggen_nurbs::{Curve, Knots, ParametricCurve, ParametricSurface, Surface};
 use glam::{DVec2, DVec3};
 
 /// Makes bores; keeps what they have in common.
@@ -52,13 +53,15 @@ struct Ring {
 }
 
 impl Drill {
-    /// Bores from the faces `lower` to the faces `upper`; the mouths are where the axis meets them.
+    /// Bores from the faces `lower` to the faces `upper`; the mouths are where the axis meets them. `clear` sees the
+    /// rims at both ends before anything is changed and may refuse.
     pub(crate) fn bore(
         &mut self,
         model: &mut Model,
         shape: &BoreShape,
         ends: [(&[FaceId], Mouth); 2],
         names: &BoreNames<'_>,
+        clear: &mut dyn FnMut([Rim; 2]) -> Result<(), BoreError>,
     ) -> Result<Bored, BoreError> {
         let target = |model| ends.map(|(faces, _)| Target { model, faces });
         let targets = target(&*model);
@@ -82,6 +85,7 @@ impl Drill {
                 )?);
             }
         }
+        clear([rim(&traces[0]), rim(&traces[1])])?;
         // From here on the model changes.
         let crossed = split_borders(model, &end_legs)?;
         let mut rings = Vec::with_capacity(last + 1);
@@ -186,6 +190,20 @@ impl Drill {
         let slope = |k: usize| shape.frame.vector(at(k).1) * length;
         Ok(Some(self.interpolators.of(spans)?.curve_with_slopes(&points, slope(0), slope(spans))?))
     }
+}
+
+/// The delimiting curves of one end as a polygon.
+fn rim(traces: &[Option<(FaceId, Trace)>]) -> Rim {
+    const LEAST_STEPS: usize = 24;
+    let traces: Vec<&(FaceId, Trace)> = traces.iter().flatten().collect();
+    let steps = LEAST_STEPS.div_ceil(traces.len().max(1));
+    let points = traces
+        .iter()
+        .flat_map(|(_, trace)| (0..steps).map(move |i| trace.curve.point(i as f64 / steps as f64)));
+    let mut faces: Vec<FaceId> = traces.iter().map(|(face, _)| *face).collect();
+    faces.sort();
+    faces.dedup();
+    Rim::new(faces, points.collect())
 }
 
 /// The line of a path at `t` that ends at the first section or at the last one.

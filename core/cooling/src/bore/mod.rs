@@ -8,13 +8,15 @@
 mod build;
 mod legs;
 mod ligament;
+mod rims;
 mod ring;
 mod shape;
 mod target;
 
 pub(crate) use build::{BoreNames, Bored, Drill};
-pub(crate) use ligament::{Hull, Neighbour, neighbours};
-pub(crate) use shape::{BoreShape, Frame, circle, rounded_rectangle, stretched_circle};
+pub(crate) use ligament::{Hull, neighbours};
+pub(crate) use rims::{Rim, Rims};
+pub(crate) use shape::{BoreShape, Frame, circle, racetrack, rounded_rectangle, stretched_circle};
 pub(crate) use target::Mouth;
 
 use std::fmt;
@@ -31,6 +33,8 @@ pub(crate) enum BoreError {
     TooShort(f64),
     /// The bore breaks out beyond hub or tip, by how much, mm.
     BeyondEnds(f64),
+    /// Its border overlaps another bore's (negative gap) or comes nearer to it than the least ligament, mm.
+    Meets { other: String, gap: f64, least: f64 },
     /// A delimiting curve could not be brought within the tolerance of its surface.
     Inaccurate,
     /// A kernel or topology method failed.
@@ -44,6 +48,7 @@ impl BoreError {
             Self::Leaves(_) => "leaves_face",
             Self::TooShort(_) => "wall_too_thin",
             Self::BeyondEnds(_) => "leaves_blade",
+            Self::Meets { .. } => "ligament",
             Self::Misses | Self::Inaccurate | Self::Geometry(_) => "geometry",
         }
     }
@@ -56,6 +61,10 @@ impl fmt::Display for BoreError {
             Self::Leaves(face) => write!(f, "runs over the end of {face}"),
             Self::TooShort(by) => write!(f, "is {by:.3} mm too short for its shape"),
             Self::BeyondEnds(by) => write!(f, "breaks out {by:.3} mm beyond hub or tip"),
+            Self::Meets { other, gap, .. } if *gap < 0.0 => write!(f, "meets {other} by {:.3} mm", -gap),
+            Self::Meets { other, gap, least } => {
+                write!(f, "leaves {gap:.3} mm to {other}, {least} mm is the least ligament")
+            }
             Self::Inaccurate => write!(f, "meets its surface at too flat an angle"),
             Self::Geometry(message) => write!(f, "{message}"),
         }

@@ -69,6 +69,16 @@ pub(crate) struct BoreSection {
     pub(crate) paths: Vec<Path>,
 }
 
+impl BoreSection {
+    /// Points of the outline, `about` many or a few more, evenly over its paths.
+    pub(crate) fn rim(&self, about: usize) -> Vec<DVec2> {
+        let paths: Vec<&Path> = self.paths.iter().filter(|path| !path.is_point()).collect();
+        let steps = about.div_ceil(paths.len().max(1));
+        let at = move |i: usize| i as f64 / steps as f64;
+        paths.into_iter().flat_map(|path| (0..steps).map(move |i| path.evaluate(at(i)).0)).collect()
+    }
+}
+
 /// A bore's shape, its sections from the lower to the upper end, at least two.
 #[derive(Clone, Debug)]
 pub(crate) struct BoreShape {
@@ -105,6 +115,15 @@ pub(crate) fn rounded_rectangle(z: f64, low: DVec2, high: DVec2, radius: f64) ->
         paths.push(if from.distance(to) > 1e-9 { Path::Line { from, to } } else { Path::Point(from) });
     }
     BoreSection { z, paths }
+}
+
+/// A circle of this radius, or where `height_d` is more than 1 a racetrack that is as many diameters high along y.
+pub(crate) fn racetrack(z: f64, radius: f64, height_d: f64) -> BoreSection {
+    if height_d == 1.0 {
+        return circle(z, radius);
+    }
+    let half = DVec2::new(radius, radius * height_d);
+    rounded_rectangle(z, -half, half, radius)
 }
 
 /// A circle in the eight paths of a rounded rectangle: its quarters, and a point where each side will open.

@@ -2,10 +2,14 @@
 
 use super::blank::Blank;
 use super::clearance::{self, ChamberPolygon};
+use super::crossovers::{CrossoverGeometry, add_crossover_rows};
+use super::dust_holes::{DustHoleGeometry, add_dust_holes};
 use super::error::BuildError;
 use super::film::{FilmHoleGeometry, add_film_rows};
 use super::inserts::{InsertGeometry, InsertSite, JetGeometry, add_inserts, add_jets};
+use super::ligaments::Ligaments;
 use super::passages::{Host, Passage, PassageEnd, PassageParts, add_chambers};
+use super::pins::{PinGeometry, add_pin_arrays};
 use super::pointed::add_pointed_tube;
 use super::probe::Probe;
 use super::radial_holes::{RadialHoleGeometry, patches, place};
@@ -13,12 +17,15 @@ use super::sections::{Grid, Section, span_fractions};
 use super::sides::Sides;
 use super::slots::{SlotGeometry, add_slot_rows};
 use super::solids::{SolidParts, add_caps, add_solids};
+use super::stack::Stack;
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
 use super::turns::{ShellCheck, settled, sites};
+use crate::bore::Rims;
 use crate::plan::Plan;
 use coolinggen_blade::{Blade, Fault, StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, Model};
+use std::collections::HashMap;
 
 /// A built design.
 #[derive(Clone, Debug)]
@@ -40,12 +47,25 @@ pub struct CooledBlade {
     pub passages: Vec<PassageParts>,
     /// The radial holes.
     pub radial_holes: Vec<RadialHoleGeometry>,
-    /// The film holes, row by row.
-    pub film_holes: Vec<FilmHoleGeometry>,
-    /// The slots, row by row.
-    pub slots: Vec<SlotGeometry>,
     /// The inserts.
     pub inserts: Vec<InsertGeometry>,
+    /// Bores of all kinds.
+    pub bores: Bores,
+}
+
+/// Bores of all kinds, row by row.
+#[derive(Clone, Debug, Default)]
+pub struct Bores {
+    /// The film holes.
+    pub film_holes: Vec<FilmHoleGeometry>,
+    /// The slots.
+    pub slots: Vec<SlotGeometry>,
+    /// The crossover holes.
+    pub crossovers: Vec<CrossoverGeometry>,
+    /// The pins.
+    pub pins: Vec<PinGeometry>,
+    /// The dust holes.
+    pub dust_holes: Vec<DustHoleGeometry>,
     /// The jets, insert by insert and array by array.
     pub jets: Vec<JetGeometry>,
 }
@@ -58,62 +78,56 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let mut model = Model::default();
     let ends = [space.surface(0.0)?, space.surface(1.0)?];
     let mut outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
-    let (mut passages, mut radial_holes) = (Vec::new(), Vec::new());
-    let (mut film_holes, mut slots, mut links) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut inserts, mut jets) = (Vec::new(), Vec::new());
+    let mut passages = Vec::new();
+    let mut inserts = Vec::new();
+    let mut radial_holes = Vec::new();
+    let (mut grid, mut stack) = (None, None);
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
         if blade.surface.tip().is_some() {
             let message = "this blade ends in a point: there is no tip that passages could open at";
             return Err(BuildError::Refused(vec![Fault::new("/cooling", "pointed_tip", message)]));
         }
-        let grid = Grid::new(blade)?;
+        let grid = grid.insert(Grid::new(blade)?);
         let mut polygons = Vec::new();
-        let (mut sections, mut tails) = (Vec::new(), Vec::new());
         if let (Some(shell), false) = (&plan.shell, plan.chambers.is_empty()) {
             let blamed = |e: BuildError| e.blamed_on("/cooling/chambers");
-            let stack = settled(blade, space, &grid, plan, shell).map_err(blamed)?;
-            let turns = sites(&stack, plan).map_err(blamed)?;
+            let stack = stack.insert(settled(blade, space, grid, plan, shell).map_err(blamed)?);
+            let turns = sites(stack, plan).map_err(blamed)?;
             let check = ShellCheck { probe: Probe::new(blade), blade, space, shell };
             (passages, polygons) =
-                add_chambers(&mut model, blade, &stack, plan, &turns, &check).map_err(blamed)?;
-            let site = InsertSite { blade, space, grid: &grid, plan, shell, stack: &stack };
+                add_chambers(&mut model, blade, stack, plan, &turns, &check).map_err(blamed)?;
+            let site = InsertSite { blade, space, grid, plan, shell, stack };
             inserts = add_inserts(&mut model, &site, &mut passages)?;
-            tails = stack.tails();
-            sections = stack.sections;
         }
         if !plan.radial_holes.is_empty() {
-            radial_holes = place_radial_holes(blade, space, &grid, plan, &polygons)?;
+            radial_holes = place_radial_holes(blade, space, grid, plan, &polygons)?;
             passages.extend(add_radial_holes(&mut model, &radial_holes, &ends)?);
         }
-        if plan.has_bores() {
-            if sections.is_empty() {
-                let fractions = span_fractions(&[[0.0, 1.0]]);
-                sections = fractions
-                    .iter()
-                    .map(|&v| Section::new(blade, space, &grid, v))
-                    .collect::<Result<_, _>>()?;
-            }
-            let sides = Sides::new(blade, &grid, &sections);
-            let (outer, outward) = (&mut outer.faces, blade.outward);
-            let mut blank = Blank {
-                model: &mut model,
-                outer,
-                passages: &mut passages,
-                inserts: &mut inserts,
-                links: Vec::new(),
-                outward,
-                ends: &ends,
-                parts: Vec::new(),
-            };
-            film_holes = add_film_rows(&mut blank, &sides, &plan.film_rows, plan.least_ligament)?;
-            slots = add_slot_rows(&mut blank, &sections, &tails, &plan.slot_rows)?;
-            jets = add_jets(&mut blank, &plan.inserts)?;
-            links = blank.links;
-        }
     }
+    let mut blank = Blank {
+        model: &mut model,
+        outer: &mut outer.faces,
+        passages: &mut passages,
+        inserts: &mut inserts,
+        links: Vec::new(),
+        outward: blade.outward,
+        ends: &ends,
+        parts: HashMap::new(),
+        least_ligament: plan.least_ligament,
+        ligaments: Ligaments::default(),
+        rims: Rims::default(),
+    };
+    let mut bores = match &grid {
+        Some(grid) => add_bores(&mut blank, (blade, space, grid), stack.as_ref(), plan)?,
+        None => Bores::default(),
+    };
+    let caps = add_caps(blank.model, space, &ends, &outer.rings, blank.passages, blank.inserts)?;
+    if let Some(stack) = &stack {
+        bores.dust_holes = add_dust_holes(&mut blank, stack, plan, &caps)?;
+    }
+    let links = blank.links;
     let in_metal = passages.iter().filter(|p| p.host == Host::Metal);
     let passage_faces = in_metal.flat_map(|p| p.faces.iter().copied()).collect();
-    let caps = add_caps(&mut model, space, &ends, &outer, &passages, &inserts)?;
     let parts = SolidParts {
         outward: blade.outward,
         outer: &outer.faces,
@@ -127,8 +141,8 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let parts = passages.into_iter().filter(|p| !p.parts.is_empty());
     let parts = parts.map(|p| PassageParts { name: p.name, parts: p.parts }).collect();
     let mut outer_faces = outer.faces;
-    outer_faces.extend(film_holes.iter().flat_map(|hole| &hole.exits));
-    outer_faces.extend(slots.iter().flat_map(|slot| &slot.exits));
+    outer_faces.extend(bores.film_holes.iter().flat_map(|hole| &hole.exits));
+    outer_faces.extend(bores.slots.iter().flat_map(|slot| &slot.exits));
     Ok(CooledBlade {
         model,
         passages: parts,
@@ -138,11 +152,39 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         closed_ends: caps.closed(),
         end_surfaces: ends,
         radial_holes,
-        film_holes,
-        slots,
         inserts,
-        jets,
+        bores,
     })
+}
+
+/// All bores but those that need caps.
+fn add_bores(
+    blank: &mut Blank<'_>,
+    (blade, space, grid): (&Blade, &StreamSpace, &Grid),
+    stack: Option<&Stack>,
+    plan: &Plan,
+) -> Result<Bores, BuildError> {
+    let mut bores = Bores::default();
+    if !plan.film_rows.is_empty() {
+        let own: Vec<Section>;
+        let sections = match stack {
+            Some(stack) => &stack.sections,
+            None => {
+                let fractions = span_fractions(&[[0.0, 1.0]]);
+                let sections = fractions.iter().map(|&v| Section::new(blade, space, grid, v));
+                own = sections.collect::<Result<_, _>>()?;
+                &own
+            }
+        };
+        bores.film_holes = add_film_rows(blank, &Sides::new(blade, grid, sections), &plan.film_rows)?;
+    }
+    if let Some(stack) = stack {
+        bores.slots = add_slot_rows(blank, &stack.sections, &stack.tails(), &plan.slot_rows)?;
+        bores.crossovers = add_crossover_rows(blank, plan)?;
+        bores.pins = add_pin_arrays(blank, stack, plan)?;
+    }
+    bores.jets = add_jets(blank, &plan.inserts)?;
+    Ok(bores)
 }
 
 /// Where the radial holes are, clear of everything.

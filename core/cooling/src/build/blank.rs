@@ -1,13 +1,15 @@
 //! What bores are drilled into: the outer surface and the passages.
 
 use super::inserts::Insert;
-use super::passages::{Branch, Host, Link, Passage};
+use super::ligaments::Ligaments;
+use super::passages::{Branch, Host, Link, Passage, PassagePart};
 use super::style;
-use crate::bore::{BoreError, BoreNames, BoreShape, Bored, Drill, Mouth};
+use crate::bore::{BoreError, BoreNames, BoreShape, Bored, Drill, Mouth, Rim, Rims};
 use coolinggen_blade::StreamSurface;
 use coolinggen_brep::{Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
 use coolinggen_nurbs::{ParametricCurve, ParametricSurface, Surface};
 use glam::{DVec2, DVec3};
+use std::collections::HashMap;
 
 /// A blade with its passages, before its solids are made.
 pub(super) struct Blank<'a> {
@@ -23,7 +25,13 @@ pub(super) struct Blank<'a> {
     /// Hub and tip.
     pub(super) ends: &'a [StreamSurface; 2],
     /// Faces that bores have split off, each with the face whose surface it shares.
-    pub(super) parts: Vec<(FaceId, FaceId)>,
+    pub(super) parts: HashMap<FaceId, FaceId>,
+    /// Least metal between neighbouring bores, mm.
+    pub(super) least_ligament: f64,
+    /// The bores through metal.
+    pub(super) ligaments: Ligaments,
+    /// Their borders on the faces they end on.
+    pub(super) rims: Rims,
 }
 
 /// What a bore ends on.
@@ -35,6 +43,24 @@ enum Side {
     Insert(usize),
     /// The outer surface.
     Outer,
+    /// This face alone.
+    Face(FaceId),
+}
+
+impl Side {
+    fn faces<'s>(
+        &'s self,
+        passages: &'s [Passage],
+        inserts: &'s [Insert],
+        outer: &'s [FaceId],
+    ) -> &'s [FaceId] {
+        match self {
+            Self::Passage(passage) => &passages[*passage].faces,
+            Self::Insert(insert) => &inserts[*insert].outside,
+            Self::Outer => outer,
+            Self::Face(face) => std::slice::from_ref(face),
+        }
+    }
 }
 
 impl Blank<'_> {
@@ -114,6 +140,27 @@ impl Blank<'_> {
         Ok(())
     }
 
+    /// Bores from a passage, or from the cap that closes it, through the tip face, which the metal uses as `tip`.
+    /// Answers with the face `<path>/exit` that closes the coolant there.
+    pub(super) fn bore_tip(
+        &mut self,
+        drill: &mut Drill,
+        shape: &BoreShape,
+        (passage, cap): (usize, Option<FaceId>),
+        tip: FaceUse,
+        mouths: [Mouth; 2],
+        names: &BoreNames<'_>,
+    ) -> Result<FaceId, BoreError> {
+        let from = cap.map_or(Side::Passage(passage), Side::Face);
+        let bored = self.bore(drill, shape, [from, Side::Face(tip.face)], mouths, names)?;
+        let [_, upper] = bored.imprints;
+        let border = upper.inside.into_iter().next().map(|(_, border)| border).unwrap_or_default();
+        let exit = add_exit(self.model, format!("{}/exit", names.path), tip.face, border);
+        let ends = vec![FaceUse { face: exit, forward: tip.forward }];
+        self.passages[passage].branches.push(Branch { faces: bored.faces, ends });
+        Ok(exit)
+    }
+
     /// Bores between the faces of two sides and keeps the parts that it makes of them.
     fn bore(
         &mut self,
@@ -124,32 +171,56 @@ impl Blank<'_> {
         names: &BoreNames<'_>,
     ) -> Result<Bored, BoreError> {
         let [lower, upper] = mouths.map(|mouth| Mouth { face: self.part_at(mouth.face, mouth.at), ..mouth });
-        let faces = |side: Side| match side {
-            Side::Passage(passage) => &self.passages[passage].faces[..],
-            Side::Insert(insert) => &self.inserts[insert].outside[..],
-            Side::Outer => &self.outer[..],
+        let ends = [
+            (sides[0].faces(self.passages, self.inserts, self.outer), lower),
+            (sides[1].faces(self.passages, self.inserts, self.outer), upper),
+        ];
+        let in_sheet = sides.iter().any(|side| matches!(side, Side::Insert(_)));
+        let least = if in_sheet { 0.0 } else { self.least_ligament };
+        let (rims, parts) = (&mut self.rims, &self.parts);
+        let mut clear = |new: [Rim; 2]| {
+            new.into_iter().try_for_each(|mut rim| {
+                rim.faces.iter_mut().for_each(|face| *face = whole(parts, *face));
+                rims.add(names.path, rim, least)
+            })
         };
-        let ends = [(faces(sides[0]), lower), (faces(sides[1]), upper)];
-        let bored = drill.bore(self.model, shape, ends, names)?;
-        for (side, imprint) in sides.into_iter().zip(&bored.imprints) {
+        let bored = drill.bore(self.model, shape, ends, names, &mut clear)?;
+        for (side, imprint) in sides.iter().zip(&bored.imprints) {
             let faces = match side {
-                Side::Passage(passage) => &mut self.passages[passage].faces,
-                Side::Insert(insert) => &mut self.inserts[insert].outside,
+                Side::Passage(passage) => &mut self.passages[*passage].faces,
+                Side::Insert(insert) => &mut self.inserts[*insert].outside,
                 Side::Outer => &mut *self.outer,
+                Side::Face(_) => continue,
             };
             faces.extend(imprint.parts.iter().map(|(part, _)| *part));
             for &(part, from) in &imprint.parts {
-                let known = self.parts.iter().find(|(known, _)| *known == from);
-                self.parts.push((part, known.map_or(from, |(_, whole)| *whole)));
+                let whole = self.whole(from);
+                self.parts.insert(part, whole);
             }
         }
         Ok(bored)
     }
 
+    /// The face that a part was split off from, or the face itself.
+    pub(super) fn whole(&self, face: FaceId) -> FaceId {
+        whole(&self.parts, face)
+    }
+
     /// The part of a face that holds a place in its parameters.
     fn part_at(&self, face: FaceId, at: DVec2) -> FaceId {
-        let mut parts = self.parts.iter().filter(|(_, whole)| *whole == face).map(|(part, _)| *part);
-        parts.find(|&part| FaceDomain::new(self.model.face(part)).contains(at)).unwrap_or(face)
+        let face = self.whole(face);
+        let mut parts: Vec<FaceId> =
+            self.parts.iter().filter(|(_, whole)| **whole == face).map(|(part, _)| *part).collect();
+        parts.sort();
+        let holds = |part: &FaceId| FaceDomain::new(self.model.face(*part)).contains(at);
+        parts.into_iter().find(holds).unwrap_or(face)
+    }
+
+    /// The chamber of this name, and the index of its passage.
+    pub(super) fn chamber(&self, name: &str) -> Option<(usize, &PassagePart)> {
+        let path = format!("chamber/{name}");
+        let mut passages = self.passages.iter().enumerate();
+        passages.find_map(|(i, passage)| Some((i, passage.parts.iter().find(|part| part.path == path)?)))
     }
 
     /// The outer face that a point of the blade's surface lies on, with u in [0, 1].
@@ -173,6 +244,11 @@ impl Blank<'_> {
         }
         room
     }
+}
+
+/// The face that a part was split off from, or the face itself.
+fn whole(parts: &HashMap<FaceId, FaceId>, face: FaceId) -> FaceId {
+    parts.get(&face).copied().unwrap_or(face)
 }
 
 /// The face that closes the coolant where a hole breaks out: a piece of the outer surface no larger than it must be.

@@ -114,8 +114,7 @@ pub(super) fn add_parted(
 /// The edges of the surfaces' borders at the lower (0) or upper (1) end, with new vertices.
 fn add_ring(model: &mut Model, surfaces: &[Surface<DVec3>], side: usize) -> Result<Ring, BuildError> {
     let end = |s: &Surface<DVec3>| side * (s.counts().1 - 1);
-    let vertices: Vec<VertexId> =
-        surfaces.iter().map(|s| model.add_vertex(s.points()[end(s)])).collect();
+    let vertices: Vec<VertexId> = surfaces.iter().map(|s| model.add_vertex(s.points()[end(s)])).collect();
     let mut ring = Ring::default();
     for (k, surface) in surfaces.iter().enumerate() {
         let (start, finish) = (vertices[k], vertices[(k + 1) % vertices.len()]);

@@ -5,7 +5,6 @@ use super::error::BuildError;
 use super::inserts::Insert;
 use super::passages::{Host, Link, Passage, PassageEnd};
 use super::style;
-use super::tube::CutTube;
 use coolinggen_blade::{StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
 
@@ -41,6 +40,11 @@ pub(super) struct Caps {
 }
 
 impl Caps {
+    /// The tip face.
+    pub(super) fn tip(&self) -> Option<FaceUse> {
+        self.ends.get(1).copied()
+    }
+
     /// Faces of the metal that end a passage below the tip (1) or above the hub (0).
     pub(super) fn closed(&self) -> Vec<(FaceId, usize)> {
         let caps = self.passages.iter().flatten().filter(|cap| !cap.open && cap.in_metal);
@@ -48,12 +52,12 @@ impl Caps {
     }
 }
 
-/// Adds the faces that end the passages, and hub and tip with their openings.
+/// Adds the faces that end the passages, and hub and tip with their openings; `rings` are the outer surface's ends.
 pub(super) fn add_caps(
     model: &mut Model,
     space: &StreamSpace,
     ends: &[StreamSurface; 2],
-    outer: &CutTube,
+    rings: &[Ring; 2],
     passages: &[Passage],
     inserts: &[Insert],
 ) -> Result<Caps, BuildError> {
@@ -100,12 +104,11 @@ pub(super) fn add_caps(
     }
     let mut end_faces = Vec::with_capacity(2);
     for (side, name) in [(0, "blade/hub"), (1, "blade/tip")] {
-        if outer.rings[side].edges.is_empty() {
+        if rings[side].edges.is_empty() {
             continue;
         }
         let stream = &ends[side];
-        let face =
-            add_cap(model, name.to_owned(), style::end(), stream, &outer.rings[side], &openings[side])?;
+        let face = add_cap(model, name.to_owned(), style::end(), stream, &rings[side], &openings[side])?;
         let forward = points_up(model, face, stream) == (side == 1);
         end_faces.push(FaceUse { face, forward });
     }

@@ -51,6 +51,21 @@ pub(super) fn slot() -> Style {
     style("slot", [0.55, 0.35, 0.75])
 }
 
+/// Walls of crossover holes.
+pub(super) fn crossover() -> Style {
+    style("crossover", [0.30, 0.65, 0.45])
+}
+
+/// Pins.
+pub(super) fn pin() -> Style {
+    style("pin", [0.80, 0.70, 0.30])
+}
+
+/// Walls of dust holes.
+pub(super) fn dust_hole() -> Style {
+    style("dust_hole", [0.60, 0.45, 0.35])
+}
+
 /// Where coolant enters.
 pub(super) fn inlet() -> Style {
     style("coolant/inlet", [0.16, 0.45, 0.85])

@@ -4,8 +4,11 @@
 //! reference page are generated from them. Lengths are millimetres, angles degrees.
 
 mod chambers;
+mod crossovers;
+mod dust_holes;
 mod film;
 mod inserts;
+mod pins;
 mod radial_holes;
 mod read;
 mod schema;
@@ -14,12 +17,15 @@ mod spelling;
 mod turns;
 
 pub use chambers::{Chamber, Shell, Wall};
+pub use crossovers::CrossoverRow;
+pub use dust_holes::DustHole;
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
 pub use inserts::{Insert, InsertSide, JetArray};
+pub use pins::PinArray;
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, schema_faults};
 pub use slots::SlotRow;
-pub use turns::{Automatic, Clearance, Turn, SpanEnd};
+pub use turns::{Automatic, Clearance, SpanEnd, Turn};
 
 use crate::plan::Plan;
 use coolinggen_blade::{BladeSource, Fault, SpaceSpec};
@@ -87,7 +93,19 @@ pub struct Cooling {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
     pub slot_rows: Vec<SlotRow>,
-    /// Least metal between neighbouring film holes, mm; less is refused.
+    /// Rows of holes through walls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub crossover_rows: Vec<CrossoverRow>,
+    /// Arrays of pins between the sides of chambers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub pin_arrays: Vec<PinArray>,
+    /// Holes through the tip.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    pub dust_holes: Vec<DustHole>,
+    /// Least metal between neighbouring holes, and least passage between neighbouring pins, mm; less is refused.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "mm"))]
     pub least_ligament: f64,

@@ -74,17 +74,24 @@ impl Maker {
         let mut plans: Vec<InsertPlan> = Vec::new();
         for (index, insert) in cooling.inserts.iter().enumerate() {
             let at = list.at(index);
-            let Some(chamber) = self.chamber_named(&insert.chamber, chambers, &at.at("chamber")) else {
+            let Some(chamber) = self.known(
+                "chamber",
+                &insert.chamber,
+                chambers.iter().map(|c| c.name.as_str()),
+                &at.at("chamber"),
+            ) else {
                 continue;
             };
             if plans.iter().any(|other| other.chamber == chamber) {
                 let message = format!("chamber \"{}\" has an insert already", insert.chamber);
-                self.faults.push(Fault::new(at.at("chamber"), "taken", message).value(insert.chamber.as_str()));
+                self.faults
+                    .push(Fault::new(at.at("chamber"), "taken", message).value(insert.chamber.as_str()));
                 continue;
             }
             let plan = self.insert(index, insert, chamber, &chambers[chamber], &at);
             let (side, end) = (plan.open(), ["hub", "tip"][plan.open()]);
-            let turn = turns.iter().find(|t| t.side() == side && (t.front == chamber || t.front + 1 == chamber));
+            let turn =
+                turns.iter().find(|t| t.side() == side && (t.front == chamber || t.front + 1 == chamber));
             if let Some(turn) = turn {
                 let message = format!("the insert opens at the {end}, where turn \"{}\" begins", turn.name);
                 self.faults.push(Fault::new(at.at("closed_end"), "taken", message));
@@ -92,18 +99,6 @@ impl Maker {
             plans.push(plan);
         }
         plans
-    }
-
-    /// The index of the chamber with a name, or a fault.
-    pub(super) fn chamber_named(&mut self, name: &str, chambers: &[ChamberPlan], at: &Pointer) -> Option<usize> {
-        let place = chambers.iter().position(|c| c.name == name);
-        if place.is_none() {
-            let known: Vec<&str> = chambers.iter().map(|c| c.name.as_str()).collect();
-            let message = format!("there is no chamber \"{name}\"");
-            let fault = Fault::new(at.clone(), "unknown_name", message).value(name);
-            self.faults.push(fault.hint(format!("one of {}", known.join(", "))));
-        }
-        place
     }
 
     fn insert(
@@ -129,7 +124,8 @@ impl Maker {
             self.ordered_span(span, at);
             let (open, edge) = (span[1 - closed], [0.0, 1.0][1 - closed]);
             if open != edge {
-                let message = format!("the insert's open end is at span fraction {open}, the blade's at {edge}");
+                let message =
+                    format!("the insert's open end is at span fraction {open}, the blade's at {edge}");
                 let fault = Fault::new(at.at("span").at(1 - closed), "limit", message).value(open);
                 self.faults.push(fault.min(edge).max(edge).unit("span fraction"));
             }
@@ -161,7 +157,8 @@ impl Maker {
                  radius inside the sheet",
                 law.at(v)
             );
-            self.faults.push(Fault::new(at.clone(), "limit", message).value(law.at(v)).min(needed(v)).unit("mm"));
+            self.faults
+                .push(Fault::new(at.clone(), "limit", message).value(law.at(v)).min(needed(v)).unit("mm"));
         }
         law
     }

@@ -1,7 +1,7 @@
 //! Turns and the passages they make of chambers.
 
 use super::{ChamberPlan, Maker};
-use crate::design::{Clearance, Cooling, Turn, SpanEnd};
+use crate::design::{Clearance, Cooling, SpanEnd, Turn};
 use coolinggen_blade::{Fault, Pointer};
 
 /// A turn; see [`crate::design::Turn`].
@@ -77,7 +77,9 @@ impl Maker {
     ) -> Option<TurnPlan> {
         let mut places = [0; 2];
         for (k, name) in turn.between.iter().enumerate() {
-            places[k] = self.chamber_named(name, chambers, &at.at("between").at(k))?;
+            let known = chambers.iter().map(|c| c.name.as_str());
+            let place = self.known("chamber", name, known, &at.at("between").at(k))?;
+            places[k] = place;
         }
         let front = places[0].min(places[1]);
         if places[0].abs_diff(places[1]) != 1 {

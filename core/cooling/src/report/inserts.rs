@@ -101,7 +101,8 @@ fn distances(model: &Model, from: &[FaceId], to: &[FaceId]) -> Result<Range, Bui
     let count = from.len();
     for (k, &face) in from.iter().enumerate() {
         for (i, j) in (0..=ACROSS).flat_map(|i| (0..=ALONG).map(move |j| (i, j))) {
-            let (t, v) = (f64::from(i) / f64::from(ACROSS), low + (high - low) * f64::from(j) / f64::from(ALONG));
+            let (t, v) =
+                (f64::from(i) / f64::from(ACROSS), low + (high - low) * f64::from(j) / f64::from(ALONG));
             let point = surface(face).point(t, v);
             let mut nearest = f64::INFINITY;
             // A foot may lie round the corner.

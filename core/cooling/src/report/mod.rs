@@ -1,5 +1,6 @@
 //! The report of a built design: what it is, measured.
 
+mod inner_bores;
 mod inserts;
 mod passages;
 mod text;
@@ -13,6 +14,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use thickness::thinnest_walls;
 
+pub use inner_bores::{CrossoverReport, DustHoleReport, PinReport};
 pub use inserts::{InsertReport, JetReport};
 pub use passages::{PartReport, PassageReport, StationReport};
 pub use thickness::ThinnestWall;
@@ -51,6 +53,15 @@ pub struct Report {
     /// The slots, row by row from hub to tip.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub slots: Vec<SlotReport>,
+    /// The crossover holes, row by row from hub to tip.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub crossovers: Vec<CrossoverReport>,
+    /// The pins, row by row from hub to tip.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pins: Vec<PinReport>,
+    /// The dust holes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub dust_holes: Vec<DustHoleReport>,
     /// The inserts.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub inserts: Vec<InsertReport>,
@@ -233,10 +244,15 @@ impl Report {
             wall_thickness_mm: None,
             passages: Vec::new(),
             radial_holes: Vec::new(),
-            holes: cooled.film_holes.iter().map(|hole| hole_report(hole, &integrals)).collect(),
-            slots: cooled.slots.iter().map(|slot| slot_report(slot, &integrals)).collect(),
+            holes: cooled.bores.film_holes.iter().map(|hole| hole_report(hole, &integrals)).collect(),
+            slots: cooled.bores.slots.iter().map(|slot| slot_report(slot, &integrals)).collect(),
+            crossovers: cooled.bores.crossovers.iter().map(CrossoverReport::new).collect(),
+            pins: cooled.bores.pins.iter().map(PinReport::new).collect(),
+            dust_holes: (cooled.bores.dust_holes.iter())
+                .map(|hole| DustHoleReport::new(hole, integrals[hole.breakout.0].area_mm2))
+                .collect(),
             inserts: Vec::new(),
-            jets: cooled.jets.iter().map(inserts::jet_report).collect(),
+            jets: cooled.bores.jets.iter().map(inserts::jet_report).collect(),
             blade_fit: blade.fit.clone(),
             timings_ms: Timings::default(),
         };
@@ -244,7 +260,7 @@ impl Report {
         let passages = cooled.passages.iter().map(|p| passages::passage(model, &p.name, &p.parts));
         report.passages = passages.collect::<Result<_, _>>()?;
         let inserts = cooled.inserts.iter();
-        let inserts = inserts.map(|i| inserts::insert_report(model, &integrals, i, &cooled.jets));
+        let inserts = inserts.map(|i| inserts::insert_report(model, &integrals, i, &cooled.bores.jets));
         report.inserts = inserts.collect::<Result<_, _>>()?;
         let walls = thinnest_walls(blade, cooled)?;
         report.radial_holes = cooled.radial_holes.iter().map(|hole| radial_hole(hole, &walls)).collect();

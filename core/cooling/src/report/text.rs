@@ -121,7 +121,8 @@ fn inserts(report: &Report, out: &mut String) -> std::fmt::Result {
     }
     let [name, count, d, x, y, z] = ["jet array", "jets", "d mm", "x/d", "y/d", "z/d"];
     writeln!(out, "\n  {name:<24} {count:>6} {d:>9} {x:>7} {y:>7} {z:>16}")?;
-    let array = |jet: &JetReport| jet.name.rsplit_once('/').map_or(String::new(), |(array, _)| array.to_owned());
+    let array =
+        |jet: &JetReport| jet.name.rsplit_once('/').map_or(String::new(), |(array, _)| array.to_owned());
     for jets in report.jets.chunk_by(|a, b| array(a) == array(b)) {
         let optional = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2}"));
         let distances = jets.iter().filter_map(|jet| jet.target_d);

@@ -42,8 +42,13 @@ pub(super) fn holes<'p>(sides: &Sides<'_>, row: &'p FilmRowPlan, pointer: &str) 
 }
 
 impl Hole<'_> {
+    /// What messages call it.
+    pub(super) fn label(&self) -> String {
+        format!("hole {} of film row \"{}\"", self.number, self.row.name)
+    }
+
     pub(super) fn fault(&self, code: &'static str, what: impl std::fmt::Display) -> Fault {
-        let message = format!("hole {} of film row \"{}\" {what}", self.number, self.row.name);
+        let message = format!("{} {what}", self.label());
         Fault::new(self.pointer.clone(), code, message)
     }
 

@@ -9,7 +9,7 @@ use super::blank::Blank;
 use super::error::BuildError;
 use super::sides::Sides;
 use super::style;
-use crate::bore::{BoreNames, Drill, Hull, Mouth, Neighbour, neighbours};
+use crate::bore::{BoreNames, Drill, Mouth};
 use crate::plan::FilmRowPlan;
 use coolinggen_blade::Fault;
 use coolinggen_brep::{Caster, FaceId};
@@ -46,12 +46,11 @@ pub struct FilmHoleGeometry {
     pub exits: Vec<FaceId>,
 }
 
-/// Drills all rows; metal between neighbouring holes must be `least` mm.
+/// Drills all rows.
 pub(super) fn add_film_rows(
     blank: &mut Blank<'_>,
     sides: &Sides<'_>,
     rows: &[FilmRowPlan],
-    least: f64,
 ) -> Result<Vec<FilmHoleGeometry>, BuildError> {
     if rows.is_empty() {
         return Ok(Vec::new());
@@ -69,7 +68,10 @@ pub(super) fn add_film_rows(
             }
         }
     }
-    let ligaments = ligaments(&planned, least, &mut faults);
+    let hulls = planned.iter().map(|(hole, feed)| (feed.hull, hole.label()));
+    let least = blank.least_ligament;
+    let (ligaments, near) = blank.ligaments.add(hulls, least, |i, what| planned[i].0.fault("ligament", what));
+    faults.extend(near);
     // Holes that meet cannot be drilled, and say all there is to say.
     if !faults.is_empty() {
         return Err(BuildError::Refused(faults));
@@ -83,26 +85,6 @@ pub(super) fn add_film_rows(
         }
     }
     if faults.is_empty() { Ok(drilled) } else { Err(BuildError::Refused(faults)) }
-}
-
-/// Metal from each hole to its nearest neighbour; a fault for every pair with too little of it.
-fn ligaments(planned: &[(Hole<'_>, Feed)], least: f64, faults: &mut Vec<Fault>) -> Vec<Option<f64>> {
-    let hulls: Vec<Hull> = planned.iter().map(|(_, feed)| feed.hull).collect();
-    let greatest = hulls.iter().map(|h| h.radii[1]).fold(0.0, f64::max);
-    let found = neighbours(&hulls, least.max(10.0 * greatest));
-    for (i, neighbour) in found.iter().enumerate() {
-        // Once a pair: where each is the other's nearest, by the later one.
-        let told = |n: &Neighbour| n.index > i && found[n.index].is_some_and(|back| back.index == i);
-        let Some(neighbour) = neighbour.filter(|n| n.gap < least && !told(n)) else { continue };
-        let (hole, other) = (&planned[i].0, &planned[neighbour.index].0);
-        let what = if neighbour.gap < 0.0 {
-            format!("meets hole {} of row \"{}\" by {:.3} mm", other.number, other.row.name, -neighbour.gap)
-        } else {
-            format!("leaves {:.3} mm to hole {} of row \"{}\"", neighbour.gap, other.number, other.row.name)
-        };
-        faults.push(hole.fault("ligament", what).value(neighbour.gap).min(least).unit("mm"));
-    }
-    found.into_iter().map(|n| n.map(|n| n.gap)).collect()
 }
 
 fn drill_hole(

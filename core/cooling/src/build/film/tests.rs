@@ -80,7 +80,7 @@ fn drilled(shape: HoleShape, length: f64) -> (Model, Face, f64, f64) {
         (&[upper][..], Mouth { face: upper, at: DVec2::new(0.5, 0.5), z: 0.0 }),
     ];
     let names = BoreNames { path: "film/test/001", stages: &["metering", "diffuser"], style: &style() };
-    let bored = Drill::default().bore(&mut model, &shape, mouths, &names).unwrap();
+    let bored = Drill::default().bore(&mut model, &shape, mouths, &names, &mut |_| Ok(())).unwrap();
     let [_, upper] = bored.imprints;
     let (parent, border) = upper.inside.into_iter().next().unwrap();
     let exit = Face { loops: vec![border], ..model.face(parent).clone() };

@@ -2,9 +2,10 @@
 
 use super::super::blank::Blank;
 use super::super::error::BuildError;
+use super::super::ligaments::Ligaments;
 use super::super::style;
 use super::Insert;
-use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle, neighbours};
+use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle};
 use crate::design::InsertSide;
 use crate::plan::{InsertPlan, JetArrayPlan};
 use coolinggen_blade::Fault;
@@ -88,26 +89,12 @@ pub(in super::super) fn add_jets(
 
 /// A fault for every jet that meets the nearest one.
 fn overlaps(jets: &[Jet<'_>]) -> Vec<Fault> {
-    let radius = |jet: &Jet<'_>| 0.5 * jet.array.diameter;
-    let hull = |jet: &Jet<'_>| {
-        Hull { ends: [jet.point + jet.axis * jet.inner.z, jet.point], radii: [radius(jet); 2] }
-    };
-    let hulls: Vec<Hull> = jets.iter().map(hull).collect();
-    let greatest = jets.iter().map(radius).fold(0.0, f64::max);
-    let found = neighbours(&hulls, greatest).into_iter().enumerate();
-    let met = found.filter_map(|(i, neighbour)| Some((i, neighbour.filter(|n| !(n.gap > 0.0))?)));
-    // Once a pair, by the later one.
-    let met = met.filter(|(i, neighbour)| neighbour.index < *i);
-    met.map(|(i, neighbour)| {
-        let (jet, other) = (&jets[i], &jets[neighbour.index]);
-        let what = format!(
-            "meets jet {} of array \"{}\" by {:.3} mm",
-            other.number, other.array.name, -neighbour.gap
-        );
-        let greatest = 0.5 * (jet.array.diameter + other.array.diameter) + neighbour.gap;
-        jet.fault("ligament", what).value(jet.array.diameter).max(greatest).unit("mm")
-    })
-    .collect()
+    let planned = jets.iter().map(|jet| {
+        let ends = [jet.point + jet.axis * jet.inner.z, jet.point];
+        let name = format!("jet {} of array \"{}\"", jet.number, jet.array.name);
+        (Hull { ends, radii: [0.5 * jet.array.diameter; 2] }, name)
+    });
+    Ligaments::default().add(planned, 0.0, |i, what| jets[i].fault("ligament", what)).1
 }
 
 /// The face that a line meets first, with where it does: parameters and distance.
@@ -235,7 +222,8 @@ fn place<'p>(
             let axis = along.cross(up).normalize() * if insert.outward { 1.0 } else { -1.0 };
             let number = jets.len() + 1;
             let Some(inner) = met(model, inside, point, -axis) else {
-                let message = format!("jet {number} of array \"{}\" reaches no plenum along its axis", array.name);
+                let message =
+                    format!("jet {number} of array \"{}\" reaches no plenum along its axis", array.name);
                 return Err(Fault::new(pointer, "reaches_no_chamber", message));
             };
             let inner = Mouth { z: -inner.z, ..inner };

@@ -147,7 +147,13 @@ fn add_insert(
     passages.push(Passage {
         name: plenum.clone(),
         faces: faces.clone(),
-        parts: vec![PassagePart { path: format!("{path}/inside"), turn: None, faces, inserted: Vec::new(), reversed: open == 1 }],
+        parts: vec![PassagePart {
+            path: format!("{path}/inside"),
+            turn: None,
+            faces,
+            inserted: Vec::new(),
+            reversed: open == 1,
+        }],
         outward: site.blade.outward,
         ends: if open == 0 { [first, last] } else { [last, first] },
         branches: Vec::new(),

@@ -46,7 +46,8 @@ impl Reach {
         let length = sign * (inner - start);
         if !(length >= LEAST_SPAN) {
             let message = format!("the insert leaves a plenum over {length:.4} of the span");
-            let fault = Fault::new(format!("{pointer}/span"), "no_room", message).value(length).min(LEAST_SPAN);
+            let fault =
+                Fault::new(format!("{pointer}/span"), "no_room", message).value(length).min(LEAST_SPAN);
             return Err(BuildError::Refused(vec![fault.unit("span fraction")]));
         }
         let edge = open as f64;
@@ -57,7 +58,8 @@ impl Reach {
 
     /// Span fractions of the sections of the tube outside.
     fn outer_fractions(&self) -> Vec<f64> {
-        let beyond_seat = self.seat.map(|seat| if seat < self.inner { [seat, self.span[1]] } else { [self.span[0], seat] });
+        let beyond_seat =
+            self.seat.map(|seat| if seat < self.inner { [seat, self.span[1]] } else { [self.span[0], seat] });
         let spans: Vec<[f64; 2]> = [self.span].into_iter().chain(beyond_seat).collect();
         span_fractions(&spans)
     }
@@ -102,7 +104,8 @@ pub(super) fn sheet_walls(
     let sections = cut(reach.outer_fractions())?;
     let zero = Law::constant(0.0);
     let wall = |factor: f64| sheet_wall(site, insert, &sections, &zero.plus(factor, gap), corner);
-    let outside = wall(1.0).map_err(|error| refusal(error, insert, "gap", gap, |factor| wall(factor).is_ok()))?;
+    let outside =
+        wall(1.0).map_err(|error| refusal(error, insert, "gap", gap, |factor| wall(factor).is_ok()))?;
     let sections = cut(span_fractions(&[reach.inner_span()]))?;
     let wall = |factor: f64| {
         let (depth, corner) = (gap.plus(factor, thickness), corner.plus(-factor, thickness));
@@ -126,7 +129,8 @@ fn sheet_wall(
         pressure_side: site.shell.pressure_side.plus(1.0, depth),
         ..site.shell.clone()
     };
-    let mut plan = Plan { walls: site.plan.walls.clone(), chambers: site.plan.chambers.clone(), ..Plan::default() };
+    let mut plan =
+        Plan { walls: site.plan.walls.clone(), chambers: site.plan.chambers.clone(), ..Plan::default() };
     plan.walls.iter_mut().for_each(|wall| wall.thickness = wall.thickness.plus(2.0, depth));
     plan.chambers.iter_mut().for_each(|chamber| chamber.fillet_radius = corner.clone());
     let span = [sections[0].stream.v(), sections[sections.len() - 1].stream.v()];
