@@ -108,6 +108,12 @@ impl Law {
         Self { form: Form::Sum(Box::new(self.clone()), factor, Box::new(other.clone())) }
     }
 
+    /// `factor` times this law.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        Self::constant(0.0).plus(factor, self)
+    }
+
     /// Value at span fraction `v`; the end values beyond the ends. Exact to rounding.
     pub fn at(&self, v: f64) -> f64 {
         self.with_slope(v).0

@@ -17,6 +17,8 @@ pub struct InsertPlan {
     pub thickness: Law,
     /// Radius of the outer corners, mm.
     pub corner_radius: Law,
+    /// Whether these are as sharp as the thickness lets them be.
+    pub sharpest: bool,
     /// Span fractions, if given.
     pub span: Option<[f64; 2]>,
     /// The closed end: 0 at the hub, 1 at the tip.
@@ -114,6 +116,7 @@ impl Maker {
         // Concentric with the chamber's corners, unless those leave too little.
         let concentric = around.fillet_radius.plus(-1.0, &gap);
         let least = 2.0 * thickness.bounds().1;
+        let sharpest = insert.corner_radius.is_none() && concentric.bounds().1 < least;
         let corner_radius = match &insert.corner_radius {
             Some(law) => self.corner_radius(law, &concentric, &thickness, &at.at("corner_radius")),
             None if concentric.bounds().0 >= least => concentric,
@@ -134,7 +137,17 @@ impl Maker {
         self.unique(insert.jets.iter().map(|j| j.name.as_str()), jets);
         let arrays = insert.jets.iter().enumerate();
         let jets = arrays.filter_map(|(i, array)| self.jet_array(array, &jets.at(i))).collect();
-        InsertPlan { index, chamber, gap, thickness, corner_radius, span: insert.span, closed, jets }
+        InsertPlan {
+            index,
+            chamber,
+            gap,
+            thickness,
+            corner_radius,
+            sharpest,
+            span: insert.span,
+            closed,
+            jets,
+        }
     }
 
     /// The law of the outer corners, which must leave a radius inside and keep the gap to the chamber's corners.

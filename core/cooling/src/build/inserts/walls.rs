@@ -100,20 +100,63 @@ pub(super) fn sheet_walls(
     let cut = |fractions: Vec<f64>| -> Result<Vec<Section>, BuildError> {
         fractions.iter().map(|&v| Section::new(site.blade, site.space, site.grid, v)).collect()
     };
-    let (gap, thickness, corner) = (&insert.gap, &insert.thickness, &insert.corner_radius);
-    let sections = cut(reach.outer_fractions())?;
-    let zero = Law::constant(0.0);
-    let wall = |factor: f64| sheet_wall(site, insert, &sections, &zero.plus(factor, gap), corner);
-    let outside =
-        wall(1.0).map_err(|error| refusal(error, insert, "gap", gap, |factor| wall(factor).is_ok()))?;
-    let sections = cut(span_fractions(&[reach.inner_span()]))?;
-    let wall = |factor: f64| {
-        let (depth, corner) = (gap.plus(factor, thickness), corner.plus(-factor, thickness));
-        sheet_wall(site, insert, &sections, &depth, &corner)
+    let sections = [cut(reach.outer_fractions())?, cut(span_fractions(&[reach.inner_span()]))?];
+    let InsertPlan { gap, thickness, corner_radius, .. } = insert;
+    let outside = |gap: &Law, corner: &Law| sheet_wall(site, insert, &sections[0], gap, corner);
+    let inside = |thickness: &Law, corner: &Law| {
+        let depth = gap.plus(1.0, thickness);
+        sheet_wall(site, insert, &sections[1], &depth, &corner.plus(-1.0, thickness))
     };
-    let inside = wall(1.0)
-        .map_err(|error| refusal(error, insert, "thickness", thickness, |factor| wall(factor).is_ok()))?;
-    Ok([outside, inside])
+    let outer = outside(gap, corner_radius).map_err(|error| {
+        if let Some(factor) = greatest(|f| outside(&gap.times(f), corner_radius).is_ok()) {
+            return refusal(&error, insert, "gap", gap, factor);
+        }
+        // Corners that follow from the thickness.
+        let fits = |f: f64| {
+            let (thickness, corner) = (thickness.times(f), corner_radius.times(f));
+            outside(gap, &corner).is_ok() && inside(&thickness, &corner).is_ok()
+        };
+        match greatest(|f| insert.sharpest && fits(f)) {
+            Some(factor) => refusal(&error, insert, "thickness", thickness, factor),
+            None => error,
+        }
+    })?;
+    let inner = inside(thickness, corner_radius).map_err(|error| {
+        match greatest(|f| inside(&thickness.times(f), corner_radius).is_ok()) {
+            Some(factor) => refusal(&error, insert, "thickness", thickness, factor),
+            None => error,
+        }
+    })?;
+    Ok([outer, inner])
+}
+
+/// The greatest factor less than one that fits, by bisection, as only refusals pay for it; none where not even a
+/// thousandth does.
+fn greatest(fits: impl Fn(f64) -> bool) -> Option<f64> {
+    const LEAST: f64 = 1e-3;
+    const ROUNDS: usize = 10;
+    if !fits(LEAST) {
+        return None;
+    }
+    let (mut low, mut high) = (LEAST, 1.0);
+    for _ in 0..ROUNDS {
+        let middle = 0.5 * (low + high);
+        *(if fits(middle) { &mut low } else { &mut high }) = middle;
+    }
+    Some(low)
+}
+
+/// What is refused, said of a field of the insert of which `factor` times its law would fit.
+fn refusal(error: &BuildError, insert: &InsertPlan, field: &str, law: &Law, factor: f64) -> BuildError {
+    let value = law.bounds().1;
+    let what = match error {
+        BuildError::Refused(faults) => faults.first().map(|fault| fault.message.clone()),
+        _ => None,
+    };
+    let what = what.unwrap_or_else(|| error.to_string());
+    let message = format!("the sheet does not fit into its chamber: {what}");
+    let fault = Fault::new(format!("{}/{field}", insert.pointer()), "no_room", message);
+    BuildError::Refused(vec![fault.value(value).max(factor * value).unit("mm")])
 }
 
 /// The contour of the insert's chamber at some depth behind its faces, with corners of the given radius.
@@ -151,33 +194,4 @@ fn sheet_wall(
         }
     }
     if faults.is_empty() { Ok(SheetWall { stack, rings }) } else { Err(BuildError::worst(faults)) }
-}
-
-/// What is refused, said of the gap or the thickness, with the greatest that fits; of the corners where not even a
-/// thousandth of it does.
-fn refusal(
-    error: BuildError,
-    insert: &InsertPlan,
-    field: &str,
-    law: &Law,
-    fits: impl Fn(f64) -> bool,
-) -> BuildError {
-    const LEAST: f64 = 1e-3;
-    const ROUNDS: usize = 10;
-    let BuildError::Refused(faults) = error else { return error };
-    let Some(first) = faults.first() else { return BuildError::Refused(faults) };
-    if !fits(LEAST) {
-        let at = format!("{}/corner_radius", insert.pointer());
-        let fault = Fault { pointer: at, ..first.clone() };
-        return BuildError::Refused(vec![fault]);
-    }
-    let (mut low, mut high) = (LEAST, 1.0);
-    for _ in 0..ROUNDS {
-        let middle = 0.5 * (low + high);
-        *(if fits(middle) { &mut low } else { &mut high }) = middle;
-    }
-    let value = law.bounds().1;
-    let message = format!("the sheet does not fit into its chamber: {}", first.message);
-    let fault = Fault::new(format!("{}/{field}", insert.pointer()), "no_room", message);
-    BuildError::Refused(vec![fault.value(value).max(low * value).unit("mm")])
 }
