@@ -21,6 +21,12 @@ pub(crate) struct Neighbour {
 }
 
 impl Hull {
+    /// The hull of a straight bore that does not reach beyond its ends, where other bodies begin: round ends lie within.
+    pub(crate) fn inside([from, to]: [DVec3; 2], radius: f64) -> Self {
+        let inset = (radius / from.distance(to)).min(0.5);
+        Self { ends: [from.lerp(to, inset), to.lerp(from, inset)], radii: [radius; 2] }
+    }
+
     /// Metal to another bore, mm, negative where the two overlap: the distance of the axes less both radii at its feet.
     fn gap(&self, other: &Self) -> f64 {
         let (s, t) = nearest(self.ends, other.ends);

@@ -5,6 +5,9 @@ use coolinggen_brep::FaceId;
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
+/// Distance from a rim's plane, relative to its reach, within which a face has not turned round.
+const SAME_SIDE: f64 = 0.5;
+
 /// The border of a bore on the faces it ends on, as a polygon.
 #[derive(Clone, Debug)]
 pub(crate) struct Rim {
@@ -33,7 +36,8 @@ impl Rim {
         if outside.iter().any(|(_, met)| *met) { -least } else { least }
     }
 
-    /// Distance of a point to the polygon, and whether it lies within as seen along the polygon's normal.
+    /// Distance of a point to the polygon, and whether it lies within as seen along the polygon's normal, on the same
+    /// side of a face that turns round an end.
     fn distance(&self, p: DVec3) -> (f64, bool) {
         let n = self.points.len();
         let area: DVec3 = (0..n).map(|i| self.points[i].cross(self.points[(i + 1) % n])).sum();
@@ -52,7 +56,7 @@ impl Rim {
                 within = !within;
             }
         }
-        (least, within)
+        (least, within && (p - self.center).dot(normal).abs() < SAME_SIDE * self.reach)
     }
 }
 
@@ -64,23 +68,28 @@ pub(crate) struct Rims {
 }
 
 impl Rims {
-    /// Adds a rim, unless it overlaps one on the same face or leaves less than `least` mm to it; `path` is the bore's.
-    pub(crate) fn add(&mut self, path: &str, rim: Rim, least: f64) -> Result<(), BoreError> {
-        let near = rim.faces.iter().filter_map(|face| self.on_face.get(face)).flatten();
-        for &i in near {
-            let (other_path, other) = &self.rims[i];
-            if rim.center.distance(other.center) > rim.reach + other.reach + least {
-                continue;
-            }
-            let gap = rim.gap(other);
-            if gap < least {
-                return Err(BoreError::Meets { other: other_path.clone(), gap, least });
+    /// Adds the rims of a bore, unless one overlaps another bore's on the same face or leaves less than `least` mm to it;
+    /// `path` is the bore's.
+    pub(crate) fn add(&mut self, path: &str, rims: [Rim; 2], least: f64) -> Result<(), BoreError> {
+        for rim in &rims {
+            let near = rim.faces.iter().filter_map(|face| self.on_face.get(face)).flatten();
+            for &i in near {
+                let (other_path, other) = &self.rims[i];
+                if rim.center.distance(other.center) > rim.reach + other.reach + least {
+                    continue;
+                }
+                let gap = rim.gap(other);
+                if gap < least {
+                    return Err(BoreError::Meets { other: other_path.clone(), gap, least });
+                }
             }
         }
-        for &face in &rim.faces {
-            self.on_face.entry(face).or_default().push(self.rims.len());
+        for rim in rims {
+            for &face in &rim.faces {
+                self.on_face.entry(face).or_default().push(self.rims.len());
+            }
+            self.rims.push((path.to_owned(), rim));
         }
-        self.rims.push((path.to_owned(), rim));
         Ok(())
     }
 }
@@ -94,23 +103,32 @@ mod tests {
         Rim::new(vec![FaceId(0)], (0..48).map(|i| at(i).extend(0.0) + DVec3::X * x).collect())
     }
 
+    /// A pair of rims with the second out of the way.
+    fn pair(rim: Rim) -> [Rim; 2] {
+        [rim, Rim::new(vec![FaceId(7)], vec![DVec3::X, DVec3::Y, DVec3::Z])]
+    }
+
     #[test]
     fn rims_keep_apart() {
         let mut rims = Rims::default();
-        rims.add("a", circle(0.0, 1.0), 0.5).unwrap();
-        rims.add("b", circle(2.6, 1.0), 0.5).unwrap();
-        let refused = |rims: &mut Rims, rim: Rim| match rims.add("c", rim, 0.5) {
-            Err(BoreError::Meets { other, gap, .. }) => (other, gap),
+        rims.add("a", [circle(0.0, 1.0), circle(2.6, 1.0)], 0.5).unwrap();
+        let refused = |rim: Rim| match rims.clone().add("c", pair(rim), 0.5) {
+            Err(BoreError::Meets { gap, .. }) => gap,
             result => panic!("{result:?}"),
         };
         // Too near, overlapping, inside and around.
-        let (other, gap) = refused(&mut rims, circle(-2.4, 1.0));
-        assert!(other == "a" && (gap - 0.4).abs() < 1e-2, "{gap}");
-        assert!(refused(&mut rims, circle(4.4, 1.0)).1 < 0.0);
-        assert!(refused(&mut rims, circle(0.1, 0.3)).1 < 0.0);
-        assert!(refused(&mut rims, circle(0.0, 1.4)).1 < 0.0);
+        let gap = refused(circle(-2.4, 1.0));
+        assert!((gap - 0.4).abs() < 1e-2, "{gap}");
+        assert!(refused(circle(4.4, 1.0)) < 0.0);
+        assert!(refused(circle(0.1, 0.3)) < 0.0);
+        assert!(refused(circle(0.0, 1.4)) < 0.0);
+        // On another face, and on the other side of the same one where it turns round.
         let mut elsewhere = circle(0.0, 1.0);
         elsewhere.faces = vec![FaceId(1)];
-        rims.add("d", elsewhere, 0.5).unwrap();
+        rims.add("d", pair(elsewhere), 0.5).unwrap();
+        let mut opposite = circle(0.0, 1.0);
+        opposite.points.iter_mut().for_each(|p| p.z += 0.8);
+        let opposite = Rim::new(opposite.faces, opposite.points);
+        rims.add("e", pair(opposite), 0.5).unwrap();
     }
 }

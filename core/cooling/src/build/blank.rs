@@ -178,11 +178,9 @@ impl Blank<'_> {
         let in_sheet = sides.iter().any(|side| matches!(side, Side::Insert(_)));
         let least = if in_sheet { 0.0 } else { self.least_ligament };
         let (rims, parts) = (&mut self.rims, &self.parts);
-        let mut clear = |new: [Rim; 2]| {
-            new.into_iter().try_for_each(|mut rim| {
-                rim.faces.iter_mut().for_each(|face| *face = whole(parts, *face));
-                rims.add(names.path, rim, least)
-            })
+        let mut clear = |mut new: [Rim; 2]| {
+            new.iter_mut().flat_map(|rim| &mut rim.faces).for_each(|face| *face = whole(parts, *face));
+            rims.add(names.path, new, least)
         };
         let bored = drill.bore(self.model, shape, ends, names, &mut clear)?;
         for (side, imprint) in sides.iter().zip(&bored.imprints) {

@@ -8,7 +8,7 @@
 use super::error::BuildError;
 use super::sections::{Grid, Section};
 use super::shell::{EndRadii, OffsetSection};
-use crate::section::{Camber, Contact, Outline, Refusal, angle_between, circle_of_radius};
+use crate::section::{Camber, Contact, Outline, angle_between, circle_of_radius};
 use coolinggen_nurbs::{Interpolator, ParametricCurve};
 use glam::DVec2;
 use std::ops::RangeInclusive;
@@ -86,7 +86,11 @@ impl Bridged {
     ) -> Result<(OffsetSection, (f64, f64)), BuildError> {
         const ARC_NODES: u32 = 24;
         let v = section.stream.v();
-        let too_sharp = || BuildError::refused("/cooling/chambers/0", v, &Refusal::NoseTooSharp);
+        let too_sharp = || {
+            let refusal = self.offset.nose_refusal(radii.in_chart(section).0);
+            let scale = section.scale(self.offset.camber.front().center);
+            BuildError::refused("/cooling/chambers/0", v, &refusal.in_space(scale, radii.front))
+        };
         let Some(circle) = &self.offset.circle else {
             let ends = (length_at(&self.pairs, ends.0), length_at(&self.pairs, ends.1));
             return if self.offset.sharp_nose.is_none() {

@@ -254,7 +254,7 @@ impl<'p> Crossover<'p> {
 
     fn hull(&self) -> Hull {
         let ends = [0, 1].map(|side| self.middle + self.axis * self.mouths[side].z);
-        Hull { ends, radii: [0.5 * self.height(); 2] }
+        Hull::inside(ends, 0.5 * self.height())
     }
 
     fn drill(&self, blank: &mut Blank<'_>, drill: &mut Drill, passages: [usize; 2]) -> Result<(), Fault> {

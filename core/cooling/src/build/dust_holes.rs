@@ -220,23 +220,27 @@ impl<'p> Dust<'p> {
         const STEPS: u32 = 200;
         let across = |p: DVec3| {
             let d = p - self.frame.origin;
-            (d - self.frame.axis * d.dot(self.frame.axis)).length() - 0.5 * self.plan.diameter
+            DVec2::new(d.dot(self.frame.x), d.dot(self.frame.y))
         };
         let mut least = f64::INFINITY;
         for coedge in blank.model.face(tip).loops.iter().flat_map(|border| &border.coedges) {
             let curve = &blank.model.edge(coedge.edge).curve;
             let (start, end) = curve.domain();
-            for i in 0..=STEPS {
-                least =
-                    least.min(across(curve.point(start + (end - start) * f64::from(i) / f64::from(STEPS))));
+            let mut before = across(curve.point(start));
+            for i in 1..=STEPS {
+                let here = across(curve.point(start + (end - start) * f64::from(i) / f64::from(STEPS)));
+                let way = here - before;
+                let foot = before - way * (before.dot(way) / way.length_squared()).clamp(-1.0, 0.0);
+                least = least.min(foot.length());
+                before = here;
             }
         }
-        least
+        least - 0.5 * self.plan.diameter
     }
 
     fn hull(&self) -> Hull {
         let ends = self.mouths.map(|mouth| self.frame.point(DVec2::ZERO, mouth.z));
-        Hull { ends, radii: [0.5 * self.plan.diameter; 2] }
+        Hull::inside(ends, 0.5 * self.plan.diameter)
     }
 
     fn drill(&self, blank: &mut Blank<'_>, drill: &mut Drill, tip: FaceUse) -> Result<FaceId, Fault> {

@@ -10,7 +10,7 @@ use super::style;
 use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle};
 use crate::plan::{PinArrayPlan, Plan};
 use coolinggen_blade::Fault;
-use coolinggen_brep::{CastHit, Caster, FaceId};
+use coolinggen_brep::{CastHit, Caster};
 use coolinggen_nurbs::ParametricSurface;
 use glam::DVec3;
 
@@ -72,7 +72,6 @@ pub(super) fn add_pin_arrays(
         return Ok(Vec::new());
     }
     let net = CamberNet::new(&stack.sections);
-    let caster = Caster::new(blank.model, blank.passages.iter().flat_map(|p| p.faces.iter().copied()));
     let (mut planned, mut faults) = (Vec::new(), Vec::new());
     for array in &plan.pin_arrays {
         let Some((passage, chamber)) = blank.chamber(&plan.chambers[array.chamber].name) else { continue };
@@ -80,7 +79,8 @@ pub(super) fn add_pin_arrays(
             faults.push(fault);
             continue;
         }
-        let room = Room { blank, caster: &caster, passage, faces: &chamber.faces };
+        let caster = Caster::new(blank.model, chamber.faces.iter().copied());
+        let room = Room { blank, caster, passage };
         for pin in pins(&net, &room, array)? {
             match pin {
                 Ok(pin) => planned.push(pin),
@@ -145,25 +145,24 @@ fn pins<'p>(
 /// The chamber that pins stand in.
 struct Room<'b> {
     blank: &'b Blank<'b>,
-    caster: &'b Caster,
+    /// Its own faces: what else a line from outside may meet first does not matter.
+    caster: Caster,
     passage: usize,
-    faces: &'b [FaceId],
 }
 
 impl Room<'_> {
     /// Where a line from a point of the chamber leaves it; none where it does not, or the point lies outside.
     fn side(&self, from: DVec3, direction: DVec3) -> Option<CastHit> {
         let hit = self.caster.first(from, direction, 0.0)?;
-        let face = self.blank.whole(hit.face);
-        let (_, u, v) = self.blank.model.face(face).surface.first_derivatives(hit.at.x, hit.at.y);
+        let (_, u, v) = self.blank.model.face(hit.face).surface.first_derivatives(hit.at.x, hit.at.y);
         let out = u.cross(v).dot(direction) > 0.0;
-        (out == self.blank.passages[self.passage].outward && self.faces.contains(&face)).then_some(hit)
+        (out == self.blank.passages[self.passage].outward).then_some(hit)
     }
 
     /// Whether a pin of this diameter stands in the chamber all round.
     fn holds(&self, at: &CamberPoint, diameter: f64) -> bool {
         let frame = Frame::along(at.point, at.normal, at.up);
-        let mut rim = circle(0.0, 0.5 * diameter).rim(16).into_iter().map(|q| frame.point(q, 0.0));
+        let mut rim = circle(0.0, 0.5 * diameter).rim(12).into_iter().map(|q| frame.point(q, 0.0));
         rim.all(|p| self.side(p, at.normal).is_some() && self.side(p, -at.normal).is_some())
     }
 }
@@ -202,7 +201,7 @@ impl<'p> Pin<'p> {
 
     fn hull(&self) -> Hull {
         let ends = [0, 1].map(|side| self.at.point + self.at.normal * self.mouths[side].z);
-        Hull { ends, radii: [0.5 * self.label.array.diameter; 2] }
+        Hull::inside(ends, 0.5 * self.label.array.diameter)
     }
 
     fn make(&self, blank: &mut Blank<'_>, drill: &mut Drill) -> Result<(), Fault> {

@@ -15,11 +15,12 @@ use serde::{Deserialize, Serialize};
 pub struct Insert {
     /// Name of the chamber that it stands in; each has one insert at most.
     pub chamber: String,
-    /// Least distance between the sheet and the chamber's faces, mm, measured in space. Where the chamber's sides come
-    /// together at an edge of the blade the insert keeps away farther.
+    /// Distance between the sheet and the chamber's sides, walls and closed end, mm, measured in space. In corners and
+    /// where the sides come together at an edge of the blade it is greater; the report says by how much.
     #[schemars(extend("unit" = "mm", "minimum" = 0.01, "maximum" = 1000.0))]
     pub gap: LawSpec,
-    /// Thickness of the sheet, mm; its greatest value is that of the plate at the closed end.
+    /// Thickness of the sheet, mm, measured in space at its sides; corners and rounded ends have it in each section. Its
+    /// greatest value is that of the plate at the closed end.
     #[schemars(extend("unit" = "mm", "minimum" = 0.01, "maximum" = 100.0))]
     pub thickness: LawSpec,
     /// Radius of the sheet's outer corners, mm. It exceeds the thickness, and is at least the chamber's fillet radius less

@@ -15,10 +15,10 @@ pub struct InsertPlan {
     pub gap: Law,
     /// Millimetres.
     pub thickness: Law,
-    /// Radius of the outer corners, mm.
-    pub corner_radius: Law,
-    /// Whether these are as sharp as the thickness lets them be.
-    pub sharpest: bool,
+    /// Radius of the outer corners, mm, if given.
+    pub corner_radius: Option<Law>,
+    /// Radius of the chamber's fillets, mm.
+    pub fillet_radius: Law,
     /// Span fractions, if given.
     pub span: Option<[f64; 2]>,
     /// The closed end: 0 at the hub, 1 at the tip.
@@ -52,6 +52,17 @@ impl InsertPlan {
     /// JSON pointer to the insert.
     pub fn pointer(&self) -> String {
         format!("/cooling/inserts/{}", self.index)
+    }
+
+    /// Radius of the outer corners, mm: as given; concentric with the chamber's; or as sharp as twice the thickness.
+    pub fn corner(&self) -> Law {
+        let concentric = self.fillet_radius.plus(-1.0, &self.gap);
+        let least = 2.0 * self.thickness.bounds().1;
+        match &self.corner_radius {
+            Some(law) => law.clone(),
+            None if concentric.bounds().0 >= least => concentric,
+            None => Law::constant(concentric.bounds().1.max(least)),
+        }
     }
 
     /// The open end: 0 at the hub, 1 at the tip.
@@ -113,15 +124,11 @@ impl Maker {
     ) -> InsertPlan {
         let gap = self.law(&insert.gap, &at.at("gap"));
         let thickness = self.law(&insert.thickness, &at.at("thickness"));
-        // Concentric with the chamber's corners, unless those leave too little.
-        let concentric = around.fillet_radius.plus(-1.0, &gap);
-        let least = 2.0 * thickness.bounds().1;
-        let sharpest = insert.corner_radius.is_none() && concentric.bounds().1 < least;
-        let corner_radius = match &insert.corner_radius {
-            Some(law) => self.corner_radius(law, &concentric, &thickness, &at.at("corner_radius")),
-            None if concentric.bounds().0 >= least => concentric,
-            None => Law::constant(concentric.bounds().1.max(least)),
-        };
+        let fillet_radius = around.fillet_radius.clone();
+        let corner_radius = insert.corner_radius.as_ref().map(|law| {
+            let concentric = fillet_radius.plus(-1.0, &gap);
+            self.corner_radius(law, &concentric, &thickness, &at.at("corner_radius"))
+        });
         let closed = insert.closed_end.side();
         if let Some(span) = insert.span {
             self.ordered_span(span, at);

@@ -57,6 +57,7 @@ fn write(report: &Report, out: &mut String) -> std::fmt::Result {
         }
     }
     film_rows(report, out)?;
+    inner_bores(report, out)?;
     inserts(report, out)?;
     let fit = &report.blade_fit;
     if fit.points > 0 {
@@ -100,6 +101,65 @@ fn film_rows(report: &Report, out: &mut String) -> std::fmt::Result {
         )?;
     }
     Ok(())
+}
+
+/// A table of bores: a line for each group of neighbours whose names share their path.
+struct BoreTable<'r> {
+    /// What a group is, how many of what it has, what lies between its neighbours, and where it is.
+    titles: [&'r str; 4],
+    /// Name, diameter, length, ligament and place of each bore.
+    bores: Vec<(&'r str, f64, f64, Option<f64>, String)>,
+}
+
+impl BoreTable<'_> {
+    fn write(&self, out: &mut String) -> std::fmt::Result {
+        if self.bores.is_empty() {
+            return Ok(());
+        }
+        let [group, count, gap, place] = self.titles;
+        writeln!(out, "\n  {group:<16} {count:>6} {:>9} {:>18} {gap:>12}  {place}", "d mm", "length mm")?;
+        // The kind is said by the title.
+        let path = |name: &str| {
+            let name = name.split_once('/').map_or(name, |(_, rest)| rest);
+            name.rsplit_once('/').map_or(name, |(path, _)| path).to_owned()
+        };
+        for bores in self.bores.chunk_by(|a, b| path(a.0) == path(b.0)) {
+            let lengths = bores.iter().map(|b| b.2);
+            let (low, high) = lengths.fold((f64::INFINITY, 0.0f64), |(l, h), x| (l.min(x), h.max(x)));
+            let gap = bores.iter().filter_map(|b| b.3).min_by(f64::total_cmp);
+            writeln!(
+                out,
+                "  {:<16} {:>6} {:>9.4} {:>18} {:>12}  {}",
+                path(bores[0].0),
+                bores.len(),
+                bores.iter().map(|b| b.1).sum::<f64>() / bores.len() as f64,
+                format!("{low:.3} .. {high:.3}"),
+                gap.map_or("-".into(), |gap| format!("{gap:.3}")),
+                bores[0].4
+            )?;
+        }
+        Ok(())
+    }
+}
+
+fn inner_bores(report: &Report, out: &mut String) -> std::fmt::Result {
+    let crossovers = report.crossovers.iter();
+    let crossovers = crossovers
+        .map(|h| (h.name.as_str(), h.diameter_mm, h.length_mm, h.ligament_mm, h.chambers.join(", ")));
+    let pins = report.pins.iter();
+    let pins = pins.map(|p| (p.name.as_str(), p.diameter_mm, p.length_mm, p.gap_mm, p.chamber.clone()));
+    let dust = report.dust_holes.iter();
+    let dust =
+        dust.map(|h| (h.name.as_str(), h.diameter_mm, h.length_mm, Some(h.ligament_mm), h.passage.clone()));
+    let tables = [
+        BoreTable {
+            titles: ["crossover row", "holes", "ligament mm", "between"],
+            bores: crossovers.collect(),
+        },
+        BoreTable { titles: ["row of pins", "pins", "gap mm", "in"], bores: pins.collect() },
+        BoreTable { titles: ["dust hole", "holes", "ligament mm", "from"], bores: dust.collect() },
+    ];
+    tables.iter().try_for_each(|table| table.write(out))
 }
 
 /// A line an insert, and below it one for each of its arrays: the jets themselves are in the JSON report.

@@ -119,6 +119,8 @@ struct SideFaces<'m> {
     model: &'m Model,
     faces: Vec<FaceId>,
     reversed: bool,
+    /// Span fractions between which gap and plenum lie opposite each other.
+    span: (f64, f64),
 }
 
 impl<'m> SideFaces<'m> {
@@ -130,12 +132,9 @@ impl<'m> SideFaces<'m> {
             InsertSide::PressureSide => (4..5, true),
             InsertSide::Front => (5..8, false),
         };
-        Self { model, faces: insert.tubes[0].faces[range].to_vec(), reversed }
-    }
-
-    /// Span fractions at which the faces begin and end.
-    fn span(&self) -> (f64, f64) {
-        self.model.face(self.faces[0]).surface.domain().1
+        let spans = insert.tubes.each_ref().map(|tube| model.face(tube.faces[0]).surface.domain().1);
+        let span = (spans[0].0.max(spans[1].0), spans[0].1.min(spans[1].1));
+        Self { model, faces: insert.tubes[0].faces[range].to_vec(), reversed, span }
     }
 
     fn point(&self, place: (FaceId, f64), v: f64) -> DVec3 {
@@ -191,10 +190,10 @@ fn place<'p>(
     pointer: &'p str,
 ) -> Result<Vec<Jet<'p>>, Fault> {
     let side = SideFaces::new(model, insert, array.side);
-    let (low, high) = side.span();
+    let (low, high) = side.span;
     if !(array.span[0] >= low && array.span[1] <= high) {
         let message = format!(
-            "array \"{}\" runs from span fraction {} to {}, the insert faces its gap from {low:.4} to {high:.4}",
+            "array \"{}\" runs from span fraction {} to {}, the sheet parts plenum and gap from {low:.4} to {high:.4}",
             array.name, array.span[0], array.span[1]
         );
         let (end, limit) = if array.span[0] < low { (0, low) } else { (1, high) };

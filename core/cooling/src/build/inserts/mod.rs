@@ -19,7 +19,7 @@ use coolinggen_blade::{Blade, Fault, StreamSpace};
 use coolinggen_brep::{FaceId, Model};
 pub use jets::JetGeometry;
 pub(super) use jets::add_jets;
-use walls::{Reach, SheetWall, sheet_walls};
+use walls::{Sheet, SheetWall};
 
 /// An insert in the model, with what its solid is made from; its plenum is a passage of its own.
 #[derive(Clone, Debug)]
@@ -116,8 +116,7 @@ fn add_insert(
         let message = format!("chamber \"{name}\" does not end where the insert opens");
         BuildError::Refused(vec![Fault::new(insert.pointer(), "geometry", message)])
     })?;
-    let reach = Reach::new(site, insert)?;
-    let [outer, inner] = sheet_walls(site, insert, &reach)?;
+    let Sheet { reach, walls: [outer, inner] } = Sheet::new(site, insert)?;
     let path = format!("insert/{name}");
     let look = |part: &str| TubeLook {
         names: face_names(site.plan, k, &format!("{path}/{part}")),

@@ -88,46 +88,49 @@ impl SheetWall {
     }
 }
 
-/// The faces towards the gap and towards the plenum.
-///
-/// # Errors
-/// A refusal with the greatest gap or thickness that fits.
-pub(super) fn sheet_walls(
-    site: &InsertSite<'_>,
-    insert: &InsertPlan,
-    reach: &Reach,
-) -> Result<[SheetWall; 2], BuildError> {
-    let cut = |fractions: Vec<f64>| -> Result<Vec<Section>, BuildError> {
-        fractions.iter().map(|&v| Section::new(site.blade, site.space, site.grid, v)).collect()
-    };
-    let sections = [cut(reach.outer_fractions())?, cut(span_fractions(&[reach.inner_span()]))?];
-    let InsertPlan { gap, thickness, corner_radius, .. } = insert;
-    let outside = |gap: &Law, corner: &Law| sheet_wall(site, insert, &sections[0], gap, corner);
-    let inside = |thickness: &Law, corner: &Law| {
-        let depth = gap.plus(1.0, thickness);
-        sheet_wall(site, insert, &sections[1], &depth, &corner.plus(-1.0, thickness))
-    };
-    let outer = outside(gap, corner_radius).map_err(|error| {
-        if let Some(factor) = greatest(|f| outside(&gap.times(f), corner_radius).is_ok()) {
-            return refusal(&error, insert, "gap", gap, factor);
-        }
-        // Corners that follow from the thickness.
-        let fits = |f: f64| {
-            let (thickness, corner) = (thickness.times(f), corner_radius.times(f));
-            outside(gap, &corner).is_ok() && inside(&thickness, &corner).is_ok()
+/// A sheet: where it reaches, and its faces towards the gap and towards the plenum.
+#[derive(Debug)]
+pub(super) struct Sheet {
+    pub(super) reach: Reach,
+    pub(super) walls: [SheetWall; 2],
+}
+
+impl Sheet {
+    /// The sheet of an insert.
+    ///
+    /// # Errors
+    /// A refusal with the greatest gap or thickness that fits.
+    pub(super) fn new(site: &InsertSite<'_>, insert: &InsertPlan) -> Result<Self, BuildError> {
+        let reach = Reach::new(site, insert)?;
+        Self::within(site, insert, reach).map_err(|error| {
+            // The gap or the thickness alone may be too great, and corners that follow from them.
+            let fits = |trial: &InsertPlan| {
+                Reach::new(site, trial).and_then(|reach| Self::within(site, trial, reach)).is_ok()
+            };
+            let less_gap = |f: f64| fits(&InsertPlan { gap: insert.gap.times(f), ..insert.clone() });
+            if let Some(factor) = greatest(less_gap) {
+                return refusal(&error, insert, "gap", &insert.gap, factor);
+            }
+            let thinner =
+                |f: f64| fits(&InsertPlan { thickness: insert.thickness.times(f), ..insert.clone() });
+            match greatest(thinner) {
+                Some(factor) => refusal(&error, insert, "thickness", &insert.thickness, factor),
+                None => error,
+            }
+        })
+    }
+
+    fn within(site: &InsertSite<'_>, insert: &InsertPlan, reach: Reach) -> Result<Self, BuildError> {
+        let cut = |fractions: Vec<f64>| -> Result<Vec<Section>, BuildError> {
+            fractions.iter().map(|&v| Section::new(site.blade, site.space, site.grid, v)).collect()
         };
-        match greatest(|f| insert.sharpest && fits(f)) {
-            Some(factor) => refusal(&error, insert, "thickness", thickness, factor),
-            None => error,
-        }
-    })?;
-    let inner = inside(thickness, corner_radius).map_err(|error| {
-        match greatest(|f| inside(&thickness.times(f), corner_radius).is_ok()) {
-            Some(factor) => refusal(&error, insert, "thickness", thickness, factor),
-            None => error,
-        }
-    })?;
-    Ok([outer, inner])
+        let corner = insert.corner();
+        let outside = sheet_wall(site, insert, cut(reach.outer_fractions())?, &insert.gap, &corner)?;
+        let (depth, corner) = (insert.gap.plus(1.0, &insert.thickness), corner.plus(-1.0, &insert.thickness));
+        let sections = cut(span_fractions(&[reach.inner_span()]))?;
+        let inside = sheet_wall(site, insert, sections, &depth, &corner)?;
+        Ok(Self { reach, walls: [outside, inside] })
+    }
 }
 
 /// The greatest factor less than one that fits, by bisection, as only refusals pay for it; none where not even a
@@ -163,7 +166,7 @@ fn refusal(error: &BuildError, insert: &InsertPlan, field: &str, law: &Law, fact
 fn sheet_wall(
     site: &InsertSite<'_>,
     insert: &InsertPlan,
-    sections: &[Section],
+    sections: Vec<Section>,
     depth: &Law,
     corner: &Law,
 ) -> Result<SheetWall, BuildError> {
@@ -181,10 +184,10 @@ fn sheet_wall(
     let k = insert.chamber;
     // Only the leading chamber has a nose.
     let front = (k == 0).then_some(span);
-    let stack = Stack::through(site.blade, site.grid, sections.to_vec(), spans, &plan, &shell, front)?;
-    let mut rings = Vec::with_capacity(sections.len());
+    let stack = Stack::through(site.blade, site.grid, sections, spans, &plan, &shell, front)?;
+    let mut rings = Vec::with_capacity(stack.sections.len());
     let mut faults = Vec::new();
-    for (i, section) in sections.iter().enumerate() {
+    for (i, section) in stack.sections.iter().enumerate() {
         match ring_of(&stack, &plan, k, i) {
             Ok(ring) => rings.push(ring),
             Err(refusal) => {
