@@ -150,7 +150,7 @@ impl Maker {
             gap,
             thickness,
             corner_radius,
-            sharpest,
+            fillet_radius,
             span: insert.span,
             closed,
             jets,
