@@ -239,7 +239,14 @@ fn crossovers_that_do_not_fit_are_refused() {
         row["position"] = json!(1.0);
         row["skew_deg"] = json!(60);
     });
-    assert_eq!(fault.code, "meets_no_wall", "{fault}");
+    assert_eq!((fault.code, fault.pointer.as_str()), ("meets_no_wall", "/cooling/crossover_rows/0/skew_deg"));
+    // From the end of the flat the axis may run up to where it grazes the fillet, whose centre is 1.6 mm away.
+    let most = fault.max.unwrap();
+    assert!((most - (0.6f64 / 1.6).asin().to_degrees()).abs() < 0.5, "{most}");
+    // A wide hole much inclined, whose middle section pokes out of the wall.
+    let mut wide = row("r", "w1", 1, 3.0);
+    wide["inclination_deg"] = json!(50);
+    ok(with(plate(), &[("crossover_rows", json!([wide]))]));
     // Eight of 3 mm on 28 mm.
     let fault = lone(&|row| {
         row["count"] = json!(10);
@@ -255,9 +262,11 @@ fn crossovers_that_do_not_fit_are_refused() {
 
 #[test]
 fn pins_that_do_not_fit_are_refused() {
-    let fault = refusal(&[("pin_arrays", pins([0.1, 0.9], [0.25, 0.4], 1.2, [0.9, 2.5]))]);
+    let fault = refusal(&[("pin_arrays", pins([0.1, 0.9], [0.25, 0.4], 1.2, [2.5, 0.4]))]);
     assert_eq!(fault.code, "ligament");
     assert!(fault.message.contains("of array \"p\" meets pin "), "{}", fault.message);
+    let fault = refusal(&[("pin_arrays", pins([0.1, 0.9], [0.25, 0.4], 0.05, [2.0, 2.0]))]);
+    assert_eq!((fault.code, fault.max), ("count", Some(10_000.0)));
     let near = [("pin_arrays", pins([0.1, 0.9], [0.25, 0.4], 1.2, [2.5, 2.5])), ("least_ligament", json!(2))];
     assert_eq!(refusal(&near).code, "ligament");
     // Into the wall, which a thinner pin would clear.

@@ -277,11 +277,11 @@ fn leg_of<'l>(legs: &'l [Leg], piece: &Piece) -> &'l Leg {
     legs.iter().find(|leg| middle <= leg.to).unwrap_or(&legs[legs.len() - 1])
 }
 
-/// Splits the borders that both ends cross; answers with path, parameter and vertex of each end's crossings.
-fn split_borders(
-    model: &mut Model,
-    end_legs: &[Vec<Vec<Leg>>; 2],
-) -> Result<[Vec<(usize, f64, VertexId)>; 2], BoreError> {
+/// Path, parameter and vertex of each crossing of one end.
+type Crossings = Vec<(usize, f64, VertexId)>;
+
+/// Splits the borders that both ends cross.
+fn split_borders(model: &mut Model, end_legs: &[Vec<Vec<Leg>>; 2]) -> Result<[Crossings; 2], BoreError> {
     let mut crossings = Vec::new();
     for (side, paths) in end_legs.iter().enumerate() {
         for (path, legs) in paths.iter().enumerate() {

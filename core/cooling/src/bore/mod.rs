@@ -21,6 +21,9 @@ pub(crate) use target::Mouth;
 
 use std::fmt;
 
+/// Bores nearer to each other than this meet, whatever the least ligament is, mm.
+pub(crate) const TOUCHING: f64 = 1e-6;
+
 /// Why a bore cannot be made.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum BoreError {

@@ -1,13 +1,14 @@
 //! What bores are drilled into: the outer surface and the passages.
 
+use super::error::BuildError;
 use super::inserts::Insert;
 use super::ligaments::Ligaments;
 use super::passages::{Branch, Host, Link, Passage, PassagePart};
 use super::style;
 use crate::bore::{BoreError, BoreNames, BoreShape, Bored, Drill, Mouth, Rim, Rims};
 use coolinggen_blade::StreamSurface;
-use coolinggen_brep::{Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
-use coolinggen_nurbs::{ParametricCurve, ParametricSurface, Surface};
+use coolinggen_brep::{CastHit, Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
+use coolinggen_nurbs::{NurbsError, ParametricCurve, ParametricSurface, Surface};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 
@@ -215,10 +216,18 @@ impl Blank<'_> {
     }
 
     /// The chamber of this name, and the index of its passage.
-    pub(super) fn chamber(&self, name: &str) -> Option<(usize, &PassagePart)> {
+    pub(super) fn chamber(&self, name: &str) -> Result<(usize, &PassagePart), BuildError> {
         let path = format!("chamber/{name}");
+        let part = |passage: &'_ Passage| passage.parts.iter().position(|part| part.path == path);
         let mut passages = self.passages.iter().enumerate();
-        passages.find_map(|(i, passage)| Some((i, passage.parts.iter().find(|part| part.path == path)?)))
+        let found = passages.find_map(|(i, passage)| Some((i, &passage.parts[part(passage)?])));
+        Ok(found.ok_or(NurbsError::NotFound { what: "the passage of a chamber" })?)
+    }
+
+    /// Whether a line leaves a passage's coolant where it meets one of its faces.
+    pub(super) fn leaves(&self, passage: usize, hit: &CastHit, direction: DVec3) -> bool {
+        let (_, u, v) = self.model.face(hit.face).surface.first_derivatives(hit.at.x, hit.at.y);
+        (u.cross(v).dot(direction) > 0.0) == self.passages[passage].outward
     }
 
     /// The outer face that a point of the blade's surface lies on, with u in [0, 1].

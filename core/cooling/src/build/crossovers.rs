@@ -2,7 +2,7 @@
 
 use super::blank::Blank;
 use super::error::BuildError;
-use super::fit::greatest;
+use super::fit::{greatest, nearest};
 use super::style;
 use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, racetrack};
 use crate::plan::{CrossoverRowPlan, Plan};
@@ -51,14 +51,14 @@ struct Wall {
 }
 
 impl Wall {
-    fn of(blank: &Blank<'_>, plan: &Plan, wall: usize) -> Option<Self> {
+    fn of(blank: &Blank<'_>, plan: &Plan, wall: usize) -> Result<Self, BuildError> {
         let chambers = [wall, wall + 1].map(|k| plan.chambers[k].name.clone());
         let (front_passage, front) = blank.chamber(&chambers[0])?;
         let (back_passage, back) = blank.chamber(&chambers[1])?;
         let flats = [front.faces[BACK[1]], back.faces[FRONT[1]]];
         let flats = flats.map(|face| blank.model.face(face).surface.clone());
-        let [(_, a), (_, b)] = [&flats[0], &flats[1]].map(|flat| flat.domain());
-        Some(Self {
+        let [(_, a), (_, b)] = [&flats[0], &flats[1]].map(ParametricSurface::domain);
+        Ok(Self {
             passages: [front_passage, back_passage],
             faces: [BACK.map(|k| front.faces[k]).to_vec(), FRONT.map(|k| back.faces[k]).to_vec()],
             flats,
@@ -115,11 +115,27 @@ impl Label<'_> {
         let message = format!("{} {what}", self.text());
         Fault::new(format!("/cooling/crossover_rows/{}", self.row.index), code, message)
     }
+
+    /// The fault of a hole whose axis does not meet the wall on both sides; `fits` tells whether it does at a share of
+    /// its angles.
+    fn misses(self, angles: [f64; 2], fits: impl Fn(f64) -> bool) -> Fault {
+        let fault = self.fault("meets_no_wall", "does not meet the wall's faces on both sides");
+        // The angle that leans more is blamed.
+        let skewed = angles[1].abs() > angles[0].abs();
+        let (field, angle) = if skewed { ("/skew_deg", angles[1]) } else { ("/inclination_deg", angles[0]) };
+        let Some(limit) = nearest(0.0, 1.0, fits).map(|share| share * angle) else {
+            return fault.hint("another position or span");
+        };
+        let fault = Fault { pointer: fault.pointer.clone() + field, ..fault }.value(angle).unit("deg");
+        if angle > 0.0 { fault.max(limit) } else { fault.min(limit) }
+    }
 }
 
 /// A crossover hole to be drilled.
 struct Crossover<'p> {
     label: Label<'p>,
+    passages: [usize; 2],
+    chambers: [String; 2],
     middle: DVec3,
     axis: DVec3,
     up: DVec3,
@@ -139,27 +155,25 @@ pub(super) fn add_crossover_rows(
     let caster = Caster::new(blank.model, blank.passages.iter().flat_map(|p| p.faces.iter().copied()));
     let (mut planned, mut faults) = (Vec::new(), Vec::new());
     for row in &plan.crossover_rows {
-        let Some(wall) = Wall::of(blank, plan, row.wall) else { continue };
+        let wall = Wall::of(blank, plan, row.wall)?;
         match holes(blank, &caster, &wall, row) {
-            Ok(holes) => {
-                planned.extend(holes.into_iter().map(|hole| (hole, wall.passages, wall.chambers.clone())))
-            }
+            Ok(holes) => planned.extend(holes),
             Err(refused) => faults.extend(refused),
         }
     }
-    let hulls = planned.iter().map(|(hole, ..)| (hole.hull(), hole.label.text()));
+    let hulls = planned.iter().map(|hole| (hole.hull(), hole.label.text()));
     let least = blank.least_ligament;
     let (ligaments, near) =
-        blank.ligaments.add(hulls, least, |i, what| planned[i].0.label.fault("ligament", what));
+        blank.ligaments.add(hulls, least, |i, what| planned[i].label.fault("ligament", what));
     faults.extend(near);
     if !faults.is_empty() {
         return Err(BuildError::Refused(faults));
     }
     let mut drill = Drill::default();
     let mut made = Vec::with_capacity(planned.len());
-    for ((hole, passages, chambers), ligament) in planned.iter().zip(ligaments) {
-        match hole.drill(blank, &mut drill, *passages) {
-            Ok(()) => made.push(hole.geometry(chambers.clone(), ligament)),
+    for (hole, ligament) in planned.iter().zip(ligaments) {
+        match hole.drill(blank, &mut drill) {
+            Ok(()) => made.push(hole.geometry(ligament)),
             Err(fault) => faults.push(fault),
         }
     }
@@ -205,33 +219,32 @@ impl<'p> Crossover<'p> {
     ) -> Result<Self, Fault> {
         let row = label.row;
         let [middle, normal, up, suction] = wall.frame(v, row.position.at(v));
-        let lean = |degrees: f64| degrees.to_radians().tan();
-        let axis = normal + up * lean(row.inclination_deg.at(v)) + suction * lean(row.skew_deg.at(v));
-        let axis = axis.normalize();
-        let diameter = row.diameter.at(v);
-        let met = |side: usize, from: DVec3| -> Option<CastHit> {
-            let direction = if side == 0 { -axis } else { axis };
-            let hit = caster.first(from, direction, 1e-6)?;
+        let angles = [row.inclination_deg.at(v), row.skew_deg.at(v)];
+        let axis = |share: f64| {
+            let [tip, side] = angles.map(|degrees| (share * degrees).to_radians().tan());
+            (normal + up * tip + suction * side).normalize()
+        };
+        let met = |side: usize, from: DVec3, axis: DVec3| -> Option<CastHit> {
+            let hit = caster.first(from, if side == 0 { -axis } else { axis }, 1e-6)?;
             wall.faces[side].contains(&blank.whole(hit.face)).then_some(hit)
         };
-        let mouth = |side: usize| {
-            let hit = met(side, middle)?;
-            let z = if side == 0 { -hit.along } else { hit.along };
-            Some(Mouth { face: hit.face, at: hit.at, z })
+        let ends = |axis: DVec3| Some([met(0, middle, axis)?, met(1, middle, axis)?]);
+        let Some([before, behind]) = ends(axis(1.0)) else {
+            return Err(label.misses(angles, |share| ends(axis(share)).is_some()));
         };
-        let mouth = |side: usize| {
-            mouth(side).ok_or_else(|| {
-                let what = format!("meets no face of the wall towards chamber \"{}\"", wall.chambers[side]);
-                label.fault("meets_no_wall", what).hint("a lesser inclination or skew")
-            })
-        };
-        let mouths = [mouth(0)?, mouth(1)?];
+        let mouth = |hit: CastHit, z: f64| Mouth { face: hit.face, at: hit.at, z };
+        let mouths = [mouth(before, -before.along), mouth(behind, behind.along)];
         // All round: each line of the bore must begin and end on the wall or on its fillets.
+        let (axis, diameter) = (axis(1.0), row.diameter.at(v));
         let frame = Frame::along(middle, axis, up);
         let fits = |diameter: f64| {
             let rim = racetrack(0.0, 0.5 * diameter, row.height_d).rim(16);
-            let mut points = rim.into_iter().map(|q| frame.point(q, 0.0));
-            points.all(|p| met(0, p).is_some() && met(1, p).is_some())
+            // From the middle of the wall, where there is metal however much the bore is inclined.
+            let mut points = rim.into_iter().map(|q| {
+                let across = frame.vector(q);
+                middle + across - axis * (across.dot(normal) / axis.dot(normal))
+            });
+            points.all(|p| met(0, p, axis).is_some() && met(1, p, axis).is_some())
         };
         if !fits(diameter) {
             let what = "runs over the fillets of the wall or past its end".to_owned();
@@ -241,7 +254,8 @@ impl<'p> Crossover<'p> {
                 None => fault.hint("another position or span"),
             });
         }
-        Ok(Self { label, middle, axis, up, diameter, mouths })
+        let (passages, chambers) = (wall.passages, wall.chambers.clone());
+        Ok(Self { label, passages, chambers, middle, axis, up, diameter, mouths })
     }
 
     fn height(&self) -> f64 {
@@ -257,7 +271,7 @@ impl<'p> Crossover<'p> {
         Hull::inside(ends, 0.5 * self.height())
     }
 
-    fn drill(&self, blank: &mut Blank<'_>, drill: &mut Drill, passages: [usize; 2]) -> Result<(), Fault> {
+    fn drill(&self, blank: &mut Blank<'_>, drill: &mut Drill) -> Result<(), Fault> {
         let outline = racetrack(self.mouths[0].z, 0.5 * self.diameter, self.label.row.height_d);
         let frame = Frame::along(self.middle, self.axis, self.up);
         let shape = BoreShape::straight(frame, outline, self.length());
@@ -265,16 +279,16 @@ impl<'p> Crossover<'p> {
         let style = style::crossover();
         let names = BoreNames { path: &path, stages: &["bore"], style: &style };
         blank
-            .bore_between(drill, &shape, passages, self.mouths, &names)
+            .bore_between(drill, &shape, self.passages, self.mouths, &names)
             .map(|_| ())
             .map_err(|error| self.label.fault(error.code(), error))
     }
 
-    fn geometry(&self, chambers: [String; 2], ligament: Option<f64>) -> CrossoverGeometry {
+    fn geometry(&self, ligament: Option<f64>) -> CrossoverGeometry {
         CrossoverGeometry {
             row: self.label.row.name.clone(),
             number: self.label.number,
-            chambers,
+            chambers: self.chambers.clone(),
             center: self.middle + self.axis * (0.5 * (self.mouths[0].z + self.mouths[1].z)),
             axis: self.axis,
             diameter: self.diameter,

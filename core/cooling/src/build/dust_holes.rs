@@ -10,8 +10,8 @@ use super::style;
 use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle};
 use crate::plan::{DustHolePlan, Plan};
 use coolinggen_blade::{Fault, StreamSurface};
-use coolinggen_brep::{Caster, FaceDomain, FaceId, FaceUse};
-use coolinggen_nurbs::{ParametricCurve, line_meets_surface};
+use coolinggen_brep::{CastHit, Caster, FaceDomain, FaceId, FaceUse};
+use coolinggen_nurbs::{NurbsError, ParametricCurve, line_meets_surface};
 use glam::{DVec2, DVec3};
 
 /// A dust hole as built.
@@ -54,13 +54,17 @@ pub(super) fn add_dust_holes(
     plan: &Plan,
     caps: &Caps,
 ) -> Result<Vec<DustHoleGeometry>, BuildError> {
-    let (Some(tip), false) = (caps.tip(), plan.dust_holes.is_empty()) else { return Ok(Vec::new()) };
+    if plan.dust_holes.is_empty() {
+        return Ok(Vec::new());
+    }
+    let tip = caps.tip().ok_or(NurbsError::NotFound { what: "the tip face" })?;
     let turns = blank.passages.iter().flat_map(|p| &p.parts).filter(|part| part.turn == Some(1));
     let faces: Vec<FaceId> = turns.flat_map(|part| part.faces.iter().copied()).collect();
     let caster = Caster::new(blank.model, faces);
     let (mut planned, mut faults) = (Vec::new(), Vec::new());
     for hole in &plan.dust_holes {
-        match Dust::placed(blank, &caster, (stack, plan), caps, tip, hole) {
+        let (passage, _) = blank.chamber(&plan.chambers[hole.chamber].name)?;
+        match Dust::placed(blank, &caster, (stack, plan), (passage, caps), tip, hole) {
             Ok(hole) => planned.push(hole),
             Err(fault) => faults.push(*fault),
         }
@@ -151,15 +155,12 @@ impl<'p> Dust<'p> {
         blank: &Blank<'_>,
         caster: &Caster,
         (stack, plan): (&Stack, &Plan),
-        caps: &Caps,
+        (passage, caps): (usize, &Caps),
         tip: FaceUse,
         hole: &'p DustHolePlan,
     ) -> Result<Self, Box<Fault>> {
         let name = &plan.chambers[hole.chamber].name;
         let boxed = |code, what: String| Box::new(hole.fault(code, what));
-        let (passage, _) = blank
-            .chamber(name)
-            .ok_or_else(|| boxed("geometry", format!("finds no passage of chamber \"{name}\"")))?;
         let [from, downstream, suction] = start(stack, plan, hole)?;
         let stream = &blank.ends[1];
         let up = stream.level(from).1;
@@ -169,8 +170,12 @@ impl<'p> Dust<'p> {
         let axis = up * lean.cos() + aside * lean.sin();
         let leaves = || boxed("leaves_tip", "does not reach the tip along its axis".to_owned());
         let frame = Frame::along(from, axis, if lean > 0.0 { aside } else { downstream });
+        // Where a line leaves the coolant through a turn of this passage.
+        let turns_out = |hit: &CastHit| {
+            blank.passages[passage].faces.contains(&hit.face) && blank.leaves(passage, hit, axis)
+        };
         let (cap, inner) = if plan.turn_at(hole.chamber, 1).is_some() {
-            let hit = caster.first(from, axis, 0.0).ok_or_else(|| {
+            let hit = caster.first(from, axis, 0.0).filter(turns_out).ok_or_else(|| {
                 boxed("reaches_no_chamber", "does not meet the turn at its chamber's end".to_owned())
             })?;
             (None, Mouth { face: hit.face, at: hit.at, z: hit.along })
@@ -190,9 +195,8 @@ impl<'p> Dust<'p> {
             let inside = match cap {
                 Some(face) => within(blank, face, &frame, &inner, 0.5 * diameter),
                 None => circle(inner.z, 0.5 * diameter).rim(16).into_iter().all(|q| {
-                    let own = |face: FaceId| blank.passages[passage].faces.contains(&face);
                     let met = caster.first(frame.point(q, 0.0), axis, 0.0);
-                    met.is_some_and(|hit| own(hit.face) && hit.along < along)
+                    met.is_some_and(|hit| hit.along < along && turns_out(&hit))
                 }),
             };
             inside && within(blank, tip.face, &frame, &outer, 0.5 * diameter)

@@ -1,6 +1,6 @@
 //! Bores keep clear of each other: metal between neighbours, and pins' passages.
 
-use crate::bore::{Hull, neighbours};
+use crate::bore::{Hull, TOUCHING, neighbours};
 use coolinggen_blade::Fault;
 
 /// Bores that stand in the same body, as hulls.
@@ -31,7 +31,9 @@ impl Ligaments {
         for (i, neighbour) in found.iter().enumerate().skip(first) {
             // Once a pair: where each is the other's nearest, by the later one.
             let told = |index: usize| index > i && found[index].is_some_and(|back| back.index == i);
-            let Some(neighbour) = neighbour.filter(|n| n.gap < least && !told(n.index)) else { continue };
+            let Some(neighbour) = neighbour.filter(|n| n.gap < least.max(TOUCHING) && !told(n.index)) else {
+                continue;
+            };
             let (gap, other) = (neighbour.gap, &self.names[neighbour.index]);
             let what = if gap < 0.0 {
                 format!("meets {other} by {:.3} mm", -gap)

@@ -10,8 +10,7 @@ use super::style;
 use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle};
 use crate::plan::{PinArrayPlan, Plan};
 use coolinggen_blade::Fault;
-use coolinggen_brep::{CastHit, Caster};
-use coolinggen_nurbs::ParametricSurface;
+use coolinggen_brep::{CastHit, Caster, FaceId};
 use glam::DVec3;
 
 /// A pin as built.
@@ -74,13 +73,16 @@ pub(super) fn add_pin_arrays(
     let net = CamberNet::new(&stack.sections);
     let (mut planned, mut faults) = (Vec::new(), Vec::new());
     for array in &plan.pin_arrays {
-        let Some((passage, chamber)) = blank.chamber(&plan.chambers[array.chamber].name) else { continue };
+        let (passage, chamber) = blank.chamber(&plan.chambers[array.chamber].name)?;
         if let Some(fault) = beyond_chamber(array, stack.spans.chambers[array.chamber]) {
             faults.push(fault);
             continue;
         }
         let caster = Caster::new(blank.model, chamber.faces.iter().copied());
-        let room = Room { blank, caster, passage };
+        // The flat faces of its walls, in the order of a chamber's ring.
+        let (front, back) = (array.chamber > 0, array.chamber + 1 < plan.chambers.len());
+        let walls = [(front, 6), (back, 2)].map(|(wall, k)| wall.then(|| chamber.faces[k]));
+        let room = Room { blank, caster, passage, walls };
         for pin in pins(&net, &room, array)? {
             match pin {
                 Ok(pin) => planned.push(pin),
@@ -114,6 +116,9 @@ fn beyond_chamber(array: &PinArrayPlan, [low, high]: [f64; 2]) -> Option<Fault> 
     Some(fault.value(beyond).min(low).max(high).unit("span fraction"))
 }
 
+/// Most pins of an array.
+const MOST: f64 = 10_000.0;
+
 /// The pins of an array, row by row, each from hub to tip.
 fn pins<'p>(
     net: &CamberNet<'_>,
@@ -124,6 +129,12 @@ fn pins<'p>(
     const SHORT: f64 = 1e-9;
     let [spanwise, streamwise] = array.pitches;
     let rows = net.least_length(array.camber[0], array.camber[1], array.span) / streamwise;
+    let count = (rows + 1.0) * (net.line(array.camber[0], 0.0)?.length(array.span) / spanwise + 1.0);
+    if !(count < MOST + 1.0) {
+        let message = format!("the array has about {count:.0} pins");
+        let fault = Fault::new(format!("/cooling/pin_arrays/{}", array.index), "count", message);
+        return Ok(vec![Err(Box::new(fault.value(count.floor()).max(MOST).unit("pins")))]);
+    }
     let mut out = Vec::new();
     for row in 0..=(rows + SHORT) as usize {
         let line = net.line(array.camber[0], row as f64 * streamwise)?;
@@ -148,21 +159,23 @@ struct Room<'b> {
     /// Its own faces: what else a line from outside may meet first does not matter.
     caster: Caster,
     passage: usize,
+    /// Faces that no pin may end on: there it would be a part of the wall.
+    walls: [Option<FaceId>; 2],
 }
 
 impl Room<'_> {
-    /// Where a line from a point of the chamber leaves it; none where it does not, or the point lies outside.
+    /// Where a line from a point of the chamber leaves it; none where it does so through a wall, or the point lies
+    /// outside.
     fn side(&self, from: DVec3, direction: DVec3) -> Option<CastHit> {
         let hit = self.caster.first(from, direction, 0.0)?;
-        let (_, u, v) = self.blank.model.face(hit.face).surface.first_derivatives(hit.at.x, hit.at.y);
-        let out = u.cross(v).dot(direction) > 0.0;
-        (out == self.blank.passages[self.passage].outward).then_some(hit)
+        let on_wall = self.walls.contains(&Some(hit.face));
+        (!on_wall && self.blank.leaves(self.passage, &hit, direction)).then_some(hit)
     }
 
     /// Whether a pin of this diameter stands in the chamber all round.
     fn holds(&self, at: &CamberPoint, diameter: f64) -> bool {
         let frame = Frame::along(at.point, at.normal, at.up);
-        let mut rim = circle(0.0, 0.5 * diameter).rim(12).into_iter().map(|q| frame.point(q, 0.0));
+        let mut rim = circle(0.0, 0.5 * diameter).rim(24).into_iter().map(|q| frame.point(q, 0.0));
         rim.all(|p| self.side(p, at.normal).is_some() && self.side(p, -at.normal).is_some())
     }
 }
@@ -177,7 +190,7 @@ impl<'p> Pin<'p> {
             let mouths = [mouth(low, -low.along), mouth(high, high.along)];
             return Ok(Self { label, at, passage: room.passage, mouths });
         }
-        let what = format!("does not stand between the sides of its chamber at span fraction {v:.4}");
+        let what = format!("does not stand clear between the sides of its chamber at span fraction {v:.4}");
         if let Some(most) = greatest(diameter, |d| room.holds(&at, d)) {
             let fault = label.fault("", "leaves_chamber", what).value(diameter).max(most);
             return Err(Box::new(fault.unit("mm").hint("a pin of this diameter would")));

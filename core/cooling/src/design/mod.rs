@@ -23,7 +23,7 @@ pub use film::{FilmHole, FilmRow, HoleShape, Side};
 pub use inserts::{Insert, InsertSide, JetArray};
 pub use pins::PinArray;
 pub use radial_holes::{HolePlacement, RadialHole};
-pub use schema::{design_schema, schema_faults};
+pub use schema::{design_schema, faults_against, schema_faults};
 pub use slots::SlotRow;
 pub use turns::{Automatic, Clearance, SpanEnd, Turn};
 

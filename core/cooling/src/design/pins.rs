@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// An array of round pins between the sides of a chamber: rows along the span, one behind the other.
+/// An array of round pins between the sides of a chamber: rows along the span, one behind the other. They may end on
+/// the fillets beside the sides, not on a wall.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PinArray {
@@ -22,7 +23,7 @@ pub struct PinArray {
     #[schemars(range(min = 0.01, max = 100.0), extend("unit" = "mm"))]
     pub diameter: f64,
     /// S/D: distance between neighbouring pins of a row along the span, diameters.
-    #[schemars(range(min = 0.1, max = 1000.0), extend("unit" = "diameters"))]
+    #[schemars(range(min = 1.0, max = 1000.0), extend("unit" = "diameters"))]
     pub spanwise_pitch_d: f64,
     /// X/D: distance between neighbouring rows along the camber line, diameters.
     #[schemars(range(min = 0.1, max = 1000.0), extend("unit" = "diameters"))]

@@ -6,13 +6,13 @@ use std::collections::HashSet;
 use std::path::Path;
 
 /// A design of the samples.
-pub fn sample(name: &str) -> Value {
+pub(crate) fn sample(name: &str) -> Value {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples").join(name);
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
 /// Watertight, of the genus implied, with nothing lost between metal and coolant, names used once.
-pub fn check(generated: &Generated) {
+pub(crate) fn check(generated: &Generated) {
     let report = &generated.report;
     assert!(report.watertight);
     assert!(report.max_edge_deviation_mm < 3e-8, "{}", report.max_edge_deviation_mm);

@@ -30,6 +30,7 @@ pub(crate) fn bases() -> Vec<Base> {
     bases.push(Base { design: streamlines(&rotor), weight: 2 });
     bases.push(Base { design: short_chambers(&pritchard), weight: 3 });
     bases.push(Base { design: chambers_and_hole(&pritchard), weight: 2 });
+    bases.push(Base { design: inner_bores(&rotor), weight: 1 });
     bases
 }
 
@@ -88,5 +89,19 @@ fn chambers_and_hole(pritchard: &Value) -> Value {
     design["cooling"]["radial_holes"] =
         json!([{"name": "h", "diameter": 0.3, "at": {"frame": "camber", "position": 0.415}}]);
     design["cooling"]["walls"][0]["thickness"] = json!(2.0);
+    design
+}
+
+/// Crossover holes, pins and a dust hole.
+fn inner_bores(rotor: &Value) -> Value {
+    let mut design = rotor.clone();
+    design["name"] = json!("inner");
+    design["cooling"]["crossover_rows"] = json!([{"name": "x", "wall": "w1", "span": [0.3, 0.6], "count": 2,
+        "position": 0.4, "diameter": [[0, 0.9], [1, 0.8]], "height_d": 1.5, "inclination_deg": 10, "skew_deg": -5}]);
+    design["cooling"]["pin_arrays"] = json!([{"name": "p", "chamber": "trailing", "span": [0.4, 0.6],
+        "camber": [0.68, 0.72], "diameter": 0.8, "spanwise_pitch_d": 4, "streamwise_pitch_d": 3, "stagger": 0.3}]);
+    design["cooling"]["dust_holes"] = json!([{"name": "d", "chamber": "middle", "position": 0.4, "diameter": 1,
+        "inclination_deg": 20, "azimuth_deg": 45}]);
+    design["cooling"]["least_ligament"] = json!(0.2);
     design
 }
