@@ -100,7 +100,7 @@ fn jets_join_plenum_and_gap() {
     let jets = json!([
         array("ss", "suction_side", 3, 6),
         array("ps", "pressure_side", 2, 5),
-        array("head", "front", 2, 7)
+        array("head", "front", 1, 7)
     ]);
     let generated = built(json!([with_jets(insert("leading", 0.6), jets)]));
     let n = 3 * 6 + 2 * 5 + 7;

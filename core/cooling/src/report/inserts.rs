@@ -84,7 +84,7 @@ pub(super) fn insert_report(
         thickness_mm: distances(model, &insert.inside, &insert.outside)?,
         gap_mm: distances(model, &insert.outside, &insert.chamber)?,
         jets: own().count(),
-        jet_area_mm2: own().map(|jet| 0.25 * PI * jet.diameter * jet.diameter).sum(),
+        jet_area_mm2: own().fold(0.0, |sum, jet| sum + 0.25 * PI * jet.diameter * jet.diameter),
     })
 }
 
