@@ -175,7 +175,7 @@ fn mesh_files_of_every_sample_are_sound() {
             check(&read_obj(&path(part, "obj"), held.clone()), &report);
             check(&read_stl(&path(part, "stl"), held.clone()), &report);
         }
-        parts.insert("assembly", solids);
+        parts.insert("assembly", solids.clone());
         for (part, mut held) in parts {
             let bodies = read_glb(&path(part, "glb"));
             bodies.iter().for_each(|body| check(body, &report));

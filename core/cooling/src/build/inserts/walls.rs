@@ -2,6 +2,7 @@
 
 use super::super::chambers::RingSection;
 use super::super::error::BuildError;
+use super::super::fit::nearest;
 use super::super::passages::ring_of;
 use super::super::sections::{Section, span_fractions};
 use super::super::spans::{Spans, inside};
@@ -88,6 +89,9 @@ impl SheetWall {
     }
 }
 
+/// Least part of a gap or a thickness that is tried where all of it does not fit.
+const LEAST_FACTOR: f64 = 1e-3;
+
 /// A sheet: where it reaches, and its faces towards the gap and towards the plenum.
 #[derive(Debug)]
 pub(super) struct Sheet {
@@ -108,14 +112,14 @@ impl Sheet {
                 Reach::new(site, trial).and_then(|reach| Self::within(site, trial, reach)).is_ok()
             };
             let less_gap = |f: f64| fits(&InsertPlan { gap: insert.gap.times(f), ..insert.clone() });
-            if let Some(factor) = greatest(less_gap) {
+            if let Some(factor) = nearest(LEAST_FACTOR, 1.0, less_gap) {
                 return refusal(&error, insert, "gap", &insert.gap, factor);
             }
             let thinner =
                 |f: f64| fits(&InsertPlan { thickness: insert.thickness.times(f), ..insert.clone() });
-            match greatest(thinner) {
+            match nearest(LEAST_FACTOR, 1.0, thinner) {
                 Some(factor) => refusal(&error, insert, "thickness", &insert.thickness, factor),
-                None => error,
+                None => blamed_on_insert(error, &insert.pointer()),
             }
         })
     }
@@ -133,20 +137,14 @@ impl Sheet {
     }
 }
 
-/// The greatest factor less than one that fits, by bisection, as only refusals pay for it; none where not even a
-/// thousandth does.
-fn greatest(fits: impl Fn(f64) -> bool) -> Option<f64> {
-    const LEAST: f64 = 1e-3;
-    const ROUNDS: usize = 10;
-    if !fits(LEAST) {
-        return None;
-    }
-    let (mut low, mut high) = (LEAST, 1.0);
-    for _ in 0..ROUNDS {
-        let middle = 0.5 * (low + high);
-        *(if fits(middle) { &mut low } else { &mut high }) = middle;
-    }
-    Some(low)
+/// The same refusal, with what it says of other parts of the design said of the insert.
+fn blamed_on_insert(error: BuildError, pointer: &str) -> BuildError {
+    let BuildError::Refused(faults) = error else { return error };
+    let faults = faults.into_iter().map(|fault| match fault.pointer.starts_with(pointer) {
+        true => fault,
+        false => Fault { pointer: pointer.to_owned(), ..fault },
+    });
+    BuildError::Refused(faults.collect())
 }
 
 /// What is refused, said of a field of the insert of which `factor` times its law would fit.
