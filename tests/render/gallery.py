@@ -31,7 +31,8 @@ def draw(design: Path, out: Path) -> None:
             sys.exit(f"{design.name}: exit {done.returncode}\n{done.stdout}{done.stderr}")
         solids = read(sorted(Path(folder).glob("*.glb")))
     cooled = any(not solid.is_metal for solid in solids)
-    views = ["glass", "cut", "coolant"] if cooled else ["metal"]
+    inside = "open" if any(solid.is_insert for solid in solids) else "cut"
+    views = ["glass", inside, "coolant"] if cooled else ["metal"]
     save(Stage(solids, AZIMUTH, ELEVATION).shoot(views, CUT, WIDTH if cooled else WIDTH // 2), out)
 
 

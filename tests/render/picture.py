@@ -4,7 +4,7 @@
     picture.py OUT.png FILE.glb|FILES.stl [--view glass,cut,coolant] [--cut 0.5] [--azimuth 30]
 
 Views stand side by side: `metal` whole, `glass` with the coolant showing through, `cut` open at a part of its
-height with the coolant rising out of it, `coolant` alone.
+height with the coolant rising out of it, `open` without coolant, but with inserts cut off higher up, `coolant` alone.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from PIL import Image
 from solids import Solid, read
 
 METAL, CUT_FACE, COOLANT, LINE = "#b6bac1", "#d3d7dc", "#1f6fd0", "#23272e"
+INSERT = "#8fb8a6"
 GLASS_FAR, GLASS_NEAR = "#dfe4ea", "#9fb4c8"
 STEEL = {"pbr": True, "metallic": 0.85, "roughness": 0.38}
 PLASTIC = {"pbr": True, "metallic": 0.0, "roughness": 0.35}
@@ -89,7 +90,10 @@ class Stage:
         for solid in self.solids:
             if solid.is_metal:
                 self.metal(solid, kind, shift, cut)
-            elif kind != "metal":
+            elif solid.is_insert:
+                if kind == "open":
+                    self.sawn(solid, shift, 0.5 * (cut + 1.0), INSERT)
+            elif kind not in ("metal", "open"):
                 self.add(solid.shaded, shift, COOLANT, **PLASTIC)
                 self.add_lines(solid.edges, shift)
 
@@ -102,13 +106,17 @@ class Stage:
             self.add(skin, shift, GLASS_FAR, culling="front", **GLASS)  # the far wall, behind the coolant
             self.add(skin, shift, GLASS_NEAR, culling="back", opacity=0.10, **GLASS)
             self.add_lines(solid.edges, shift)
-        elif kind == "cut":
-            plane = {"normal": "z", "origin": (0, 0, self.low[2] + cut * (self.high[2] - self.low[2]))}
-            section = solid.closed.slice(**plane)
-            self.add(solid.shaded_below(plane), shift, METAL, **STEEL)
-            self.add_lines(solid.edges.clip(**plane), shift)
-            self.add(section.triangulate_contours(), shift, CUT_FACE, lighting=False)
-            self.add_lines(section, shift)
+        elif kind in ("cut", "open"):
+            self.sawn(solid, shift, cut, METAL)
+
+    def sawn(self, solid: Solid, shift: np.ndarray, cut: float, colour: str) -> None:
+        """The solid below a part of the blade's height, with the face that the saw leaves."""
+        plane = {"normal": "z", "origin": (0, 0, self.low[2] + cut * (self.high[2] - self.low[2]))}
+        section = solid.closed.slice(**plane)
+        self.add(solid.shaded_below(plane), shift, colour, **STEEL)
+        self.add_lines(solid.edges.clip(**plane), shift)
+        self.add(section.triangulate_contours(), shift, CUT_FACE, lighting=False)
+        self.add_lines(section, shift)
 
     def shoot(self, views: list[str], cut: float, pixels: int) -> np.ndarray:
         """The picture, so many pixels wide and as high as it needs to be."""

@@ -25,6 +25,10 @@ class Solid:
     def is_metal(self) -> bool:
         return self.name.split("/")[0] == "metal"
 
+    @property
+    def is_insert(self) -> bool:
+        return self.name.split("/")[0] == "insert"
+
     def only(self, prefix: str) -> Solid:
         """The faces whose names begin so; all, if none does."""
         chosen = [region for region in self.regions if region.name.startswith(prefix)]

@@ -35,6 +35,8 @@ enum Form {
     Constant(f64),
     /// Abscissa and value as B-splines over one parameter in [0, 1].
     Spline(Curve<glam::DVec2>),
+    /// A law and a multiple of another one.
+    Sum(Box<Law>, f64, Box<Law>),
 }
 
 /// Most control points a law may have.
@@ -100,6 +102,18 @@ impl Law {
         Self { form: Form::Constant(value) }
     }
 
+    /// This law and `factor` times another one.
+    #[must_use]
+    pub fn plus(&self, factor: f64, other: &Self) -> Self {
+        Self { form: Form::Sum(Box::new(self.clone()), factor, Box::new(other.clone())) }
+    }
+
+    /// `factor` times this law.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        Self::constant(0.0).plus(factor, self)
+    }
+
     /// Value at span fraction `v`; the end values beyond the ends. Exact to rounding.
     pub fn at(&self, v: f64) -> f64 {
         self.with_slope(v).0
@@ -110,6 +124,10 @@ impl Law {
         let curve = match &self.form {
             Form::Constant(value) => return (*value, 0.0),
             Form::Spline(curve) => curve,
+            Form::Sum(a, factor, b) => {
+                let (a, b) = (a.with_slope(v), b.with_slope(v));
+                return (a.0 + factor * b.0, a.1 + factor * b.1);
+            }
         };
         let (first, last) = (curve.points()[0], curve.points()[curve.points().len() - 1]);
         if v <= first.x {
@@ -142,7 +160,11 @@ impl Law {
 
     /// Span fractions between the ends at which the law is less smooth than elsewhere: its inner knots.
     pub(crate) fn breaks(&self) -> Vec<f64> {
-        let Form::Spline(curve) = &self.form else { return Vec::new() };
+        let curve = match &self.form {
+            Form::Constant(_) => return Vec::new(),
+            Form::Spline(curve) => curve,
+            Form::Sum(a, _, b) => return [a.breaks(), b.breaks()].concat(),
+        };
         let (first, last) = (curve.points()[0].x, curve.points()[curve.points().len() - 1].x);
         let inner = curve.breaks().into_iter().map(|t| curve.point(t).x);
         inner.filter(|v| *v > 0.0 && *v < 1.0 && (first..=last).contains(v)).collect()
@@ -156,6 +178,11 @@ impl Law {
                 .points()
                 .iter()
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |b, p| (b.0.min(p.y), b.1.max(p.y))),
+            Form::Sum(a, factor, b) => {
+                let (a, (low, high)) = (a.bounds(), b.bounds());
+                let (low, high) = (factor * low, factor * high);
+                (a.0 + low.min(high), a.1 + low.max(high))
+            }
         }
     }
 }
@@ -175,6 +202,15 @@ mod tests {
         assert!((l.at(0.25) - 1.5).abs() < 1e-15);
         assert_eq!((l.at(-1.0), l.at(2.0)), (1.0, 3.0));
         assert_eq!(law(&[[0.3, 7.0]]).at(0.9), 7.0);
+    }
+
+    #[test]
+    fn a_sum_of_laws_adds_values_slopes_and_bounds() {
+        let sum = law(&[[0.0, 1.0], [1.0, 3.0]]).plus(-0.5, &law(&[[0.0, 2.0], [0.5, 0.0]]));
+        assert!((sum.at(0.25) - (1.5 - 0.5)).abs() < 1e-15);
+        assert!((sum.with_slope(0.25).1 - (2.0 + 2.0)).abs() < 1e-12);
+        assert_eq!(sum.bounds(), (0.0, 3.0));
+        assert_eq!(sum.at(1.0), 3.0);
     }
 
     #[test]

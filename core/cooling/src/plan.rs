@@ -1,9 +1,11 @@
 //! The plan: a design's cooling with its laws made ready and everything checked that needs no geometry.
 
 mod inner_bores;
+mod inserts;
 mod turns;
 
 pub use inner_bores::{CrossoverRowPlan, DustHolePlan, PinArrayPlan};
+pub use inserts::{InsertPlan, JetArrayPlan};
 pub use turns::{Chain, TurnPlan};
 
 use crate::design::{Chamber, Cooling, FilmRow, HolePlacement, HoleShape, Side, SlotRow};
@@ -21,6 +23,8 @@ pub struct Plan {
     pub chambers: Vec<ChamberPlan>,
     /// Turns, in the design's order.
     pub turns: Vec<TurnPlan>,
+    /// Inserts, in the design's order.
+    pub inserts: Vec<InsertPlan>,
     /// Radial holes.
     pub radial_holes: Vec<RadialHolePlan>,
     /// Rows of film holes.
@@ -231,6 +235,7 @@ impl Maker {
         let walls = self.walls(cooling, &root.at("walls"));
         let chambers = self.chambers(cooling, &root.at("chambers"));
         let turns = self.turns(cooling, &chambers, &root.at("turns"));
+        let inserts = self.inserts(cooling, &chambers, &turns, &root.at("inserts"));
         let radial_holes = self.radial_holes(cooling, &root.at("radial_holes"));
         self.unique(cooling.film_rows.iter().map(|r| r.name.as_str()), &root.at("film_rows"));
         let film_rows = self.film_rows(cooling, &root.at("film_rows"));
@@ -246,6 +251,7 @@ impl Maker {
             walls,
             chambers,
             turns,
+            inserts,
             radial_holes,
             film_rows,
             slot_rows,

@@ -28,6 +28,8 @@ pub(crate) enum Format {
 pub(crate) enum SolidChoice {
     /// The blade's material
     Metal,
+    /// The sheets in its chambers, a solid an insert
+    Insert,
     /// What fills its passages, a solid a passage
     Coolant,
     /// Everything in one file
@@ -39,6 +41,7 @@ impl SolidChoice {
     fn parts(self) -> (&'static str, &'static str) {
         match self {
             Self::Metal => ("metal", "metal"),
+            Self::Insert => ("insert", "insert/"),
             Self::Coolant => ("coolant", "coolant/"),
             Self::Assembly => ("assembly", ""),
         }

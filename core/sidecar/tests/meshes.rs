@@ -163,18 +163,19 @@ fn mesh_files_of_every_sample_are_sound() {
         let solids: Vec<String> = report["solids"].as_object().unwrap().keys().cloned().collect();
         let mut parts: BTreeMap<&str, Vec<String>> = BTreeMap::new();
         for solid in &solids {
-            let part = if solid == "metal" { "metal" } else { "coolant" };
+            let part = solid.split_once('/').map_or(solid.as_str(), |(part, _)| part);
             parts.entry(part).or_default().push(solid.clone());
         }
         let design: Value = serde_json::from_str(&std::fs::read_to_string(&design).unwrap()).unwrap();
-        let cooled = usize::from(design.get("cooling").is_some());
-        assert_eq!(parts.len(), 1 + cooled, "{name} has metal, and coolant if it is cooled");
+        let cooling = |field: &str| design.pointer(&format!("/cooling{field}")).is_some();
+        let expected = 1 + usize::from(cooling("")) + usize::from(cooling("/inserts"));
+        assert_eq!(parts.len(), expected, "{name} has metal, coolant if it is cooled, and its inserts");
         let path = |part: &str, extension: &str| folder.path().join(format!("{name}.{part}.{extension}"));
         for (part, held) in &parts {
             check(&read_obj(&path(part, "obj"), held.clone()), &report);
             check(&read_stl(&path(part, "stl"), held.clone()), &report);
         }
-        parts.insert("assembly", solids);
+        parts.insert("assembly", solids.clone());
         for (part, mut held) in parts {
             let bodies = read_glb(&path(part, "glb"));
             bodies.iter().for_each(|body| check(body, &report));

@@ -6,8 +6,9 @@ use super::crossovers::{CrossoverGeometry, add_crossover_rows};
 use super::dust_holes::{DustHoleGeometry, add_dust_holes};
 use super::error::BuildError;
 use super::film::{FilmHoleGeometry, add_film_rows};
+use super::inserts::{InsertGeometry, InsertSite, JetGeometry, add_inserts, add_jets};
 use super::ligaments::Ligaments;
-use super::passages::{Passage, PassageEnd, PassageParts, add_chambers};
+use super::passages::{Host, Passage, PassageEnd, PassageParts, add_chambers};
 use super::pins::{PinGeometry, add_pin_arrays};
 use super::pointed::add_pointed_tube;
 use super::probe::Probe;
@@ -15,7 +16,7 @@ use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section, span_fractions};
 use super::sides::Sides;
 use super::slots::{SlotGeometry, add_slot_rows};
-use super::solids::{add_caps, add_solids};
+use super::solids::{SolidParts, add_caps, add_solids};
 use super::stack::Stack;
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
@@ -46,6 +47,8 @@ pub struct CooledBlade {
     pub passages: Vec<PassageParts>,
     /// The radial holes.
     pub radial_holes: Vec<RadialHoleGeometry>,
+    /// The inserts.
+    pub inserts: Vec<InsertGeometry>,
     /// Bores of all kinds.
     pub bores: Bores,
 }
@@ -63,6 +66,8 @@ pub struct Bores {
     pub pins: Vec<PinGeometry>,
     /// The dust holes.
     pub dust_holes: Vec<DustHoleGeometry>,
+    /// The jets, insert by insert and array by array.
+    pub jets: Vec<JetGeometry>,
 }
 
 /// Builds metal and coolant.
@@ -74,6 +79,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
     let ends = [space.surface(0.0)?, space.surface(1.0)?];
     let mut outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
     let mut passages = Vec::new();
+    let mut inserts = Vec::new();
     let mut radial_holes = Vec::new();
     let (mut grid, mut stack) = (None, None);
     if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
@@ -90,6 +96,8 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
             let check = ShellCheck { probe: Probe::new(blade), blade, space, shell };
             (passages, polygons) =
                 add_chambers(&mut model, blade, stack, plan, &turns, &check).map_err(blamed)?;
+            let site = InsertSite { blade, space, grid, plan, shell, stack };
+            inserts = add_inserts(&mut model, &site, &mut passages)?;
         }
         if !plan.radial_holes.is_empty() {
             radial_holes = place_radial_holes(blade, space, grid, plan, &polygons)?;
@@ -100,6 +108,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         model: &mut model,
         outer: &mut outer.faces,
         passages: &mut passages,
+        inserts: &mut inserts,
         links: Vec::new(),
         outward: blade.outward,
         ends: &ends,
@@ -112,13 +121,23 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         Some(grid) => add_bores(&mut blank, (blade, space, grid), stack.as_ref(), plan)?,
         None => Bores::default(),
     };
-    let caps = add_caps(blank.model, space, &ends, &outer.rings, blank.passages)?;
+    let caps = add_caps(blank.model, space, &ends, &outer.rings, blank.passages, blank.inserts)?;
     if let Some(stack) = &stack {
         bores.dust_holes = add_dust_holes(&mut blank, stack, plan, &caps)?;
     }
     let links = blank.links;
-    let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
-    add_solids(&mut model, blade.outward, &outer.faces, &passages, &links, &caps);
+    let in_metal = passages.iter().filter(|p| p.host == Host::Metal);
+    let passage_faces = in_metal.flat_map(|p| p.faces.iter().copied()).collect();
+    let parts = SolidParts {
+        outward: blade.outward,
+        outer: &outer.faces,
+        passages: &passages,
+        inserts: &inserts,
+        links: &links,
+        caps: &caps,
+    };
+    add_solids(&mut model, &parts);
+    let inserts = inserts.iter().map(|insert| insert.geometry(&passages)).collect();
     let parts = passages.into_iter().filter(|p| !p.parts.is_empty());
     let parts = parts.map(|p| PassageParts { name: p.name, parts: p.parts }).collect();
     let mut outer_faces = outer.faces;
@@ -133,6 +152,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         closed_ends: caps.closed(),
         end_surfaces: ends,
         radial_holes,
+        inserts,
         bores,
     })
 }
@@ -163,6 +183,7 @@ fn add_bores(
         bores.crossovers = add_crossover_rows(blank, plan)?;
         bores.pins = add_pin_arrays(blank, stack, plan)?;
     }
+    bores.jets = add_jets(blank, &plan.inserts)?;
     Ok(bores)
 }
 
@@ -194,10 +215,12 @@ fn add_radial_holes(
         let [lower, upper] = rings;
         let end = |ring, side, v| PassageEnd {
             ring,
+            inserted: None,
             side,
             v,
             name: hole.name.clone(),
             path: format!("radial_hole/{}", hole.name),
+            style: style::radial_hole(),
         };
         Ok(Passage {
             name: hole.name.clone(),
@@ -207,6 +230,7 @@ fn add_radial_holes(
             ends: [end(lower, 0, 0.0), end(upper, 1, 1.0)],
             branches: Vec::new(),
             pins: Vec::new(),
+            host: Host::Metal,
         })
     });
     passages.collect()

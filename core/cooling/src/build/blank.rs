@@ -1,8 +1,9 @@
 //! What bores are drilled into: the outer surface and the passages.
 
 use super::error::BuildError;
+use super::inserts::Insert;
 use super::ligaments::Ligaments;
-use super::passages::{Branch, Link, Passage, PassagePart};
+use super::passages::{Branch, Host, Link, Passage, PassagePart};
 use super::style;
 use crate::bore::{BoreError, BoreNames, BoreShape, Bored, Drill, Mouth, Rim, Rims};
 use coolinggen_blade::StreamSurface;
@@ -17,6 +18,7 @@ pub(super) struct Blank<'a> {
     /// Faces of the outer surface; grows where bores part them.
     pub(super) outer: &'a mut Vec<FaceId>,
     pub(super) passages: &'a mut [Passage],
+    pub(super) inserts: &'a mut [Insert],
     /// Bores that join passages.
     pub(super) links: Vec<Link>,
     /// Whether the outer faces' natural normals point out of the blade.
@@ -38,6 +40,8 @@ pub(super) struct Blank<'a> {
 enum Side {
     /// The faces of this passage.
     Passage(usize),
+    /// The faces of this insert towards the gap.
+    Insert(usize),
     /// The outer surface.
     Outer,
     /// This face alone.
@@ -45,9 +49,15 @@ enum Side {
 }
 
 impl Side {
-    fn faces<'s>(&'s self, passages: &'s [Passage], outer: &'s [FaceId]) -> &'s [FaceId] {
+    fn faces<'s>(
+        &'s self,
+        passages: &'s [Passage],
+        inserts: &'s [Insert],
+        outer: &'s [FaceId],
+    ) -> &'s [FaceId] {
         match self {
             Self::Passage(passage) => &passages[*passage].faces,
+            Self::Insert(insert) => &inserts[*insert].outside,
             Self::Outer => outer,
             Self::Face(face) => std::slice::from_ref(face),
         }
@@ -97,8 +107,23 @@ impl Blank<'_> {
         names: &BoreNames<'_>,
     ) -> Result<Vec<(FaceId, bool)>, BoreError> {
         let bored = self.bore(drill, shape, passages.map(Side::Passage), mouths, names)?;
-        self.links.push(Link { passages, faces: bored.faces.clone() });
+        self.links.push(Link { passages, faces: bored.faces.clone(), host: Host::Metal });
         Ok(bored.faces)
+    }
+
+    /// Bores through the sheet of an insert, from its plenum (the first mouth) to the gap.
+    pub(super) fn bore_jet(
+        &mut self,
+        drill: &mut Drill,
+        shape: &BoreShape,
+        insert: usize,
+        mouths: [Mouth; 2],
+        names: &BoreNames<'_>,
+    ) -> Result<(), BoreError> {
+        let [gap, plenum] = self.inserts[insert].passages;
+        let bored = self.bore(drill, shape, [Side::Passage(plenum), Side::Insert(insert)], mouths, names)?;
+        self.links.push(Link { passages: [gap, plenum], faces: bored.faces, host: Host::Insert(insert) });
+        Ok(())
     }
 
     /// A pin through a passage: metal inside the bore, coolant round it.
@@ -148,10 +173,12 @@ impl Blank<'_> {
     ) -> Result<Bored, BoreError> {
         let [lower, upper] = mouths.map(|mouth| Mouth { face: self.part_at(mouth.face, mouth.at), ..mouth });
         let ends = [
-            (sides[0].faces(self.passages, self.outer), lower),
-            (sides[1].faces(self.passages, self.outer), upper),
+            (sides[0].faces(self.passages, self.inserts, self.outer), lower),
+            (sides[1].faces(self.passages, self.inserts, self.outer), upper),
         ];
-        let (rims, parts, least) = (&mut self.rims, &self.parts, self.least_ligament);
+        let in_sheet = sides.iter().any(|side| matches!(side, Side::Insert(_)));
+        let least = if in_sheet { 0.0 } else { self.least_ligament };
+        let (rims, parts) = (&mut self.rims, &self.parts);
         let mut clear = |mut new: [Rim; 2]| {
             new.iter_mut().flat_map(|rim| &mut rim.faces).for_each(|face| *face = whole(parts, *face));
             rims.add(names.path, new, least)
@@ -160,6 +187,7 @@ impl Blank<'_> {
         for (side, imprint) in sides.iter().zip(&bored.imprints) {
             let faces = match side {
                 Side::Passage(passage) => &mut self.passages[*passage].faces,
+                Side::Insert(insert) => &mut self.inserts[*insert].outside,
                 Side::Outer => &mut *self.outer,
                 Side::Face(_) => continue,
             };

@@ -1,17 +1,18 @@
 //! What the coolant flows through: chains of chambers and turns, and radial holes, as faces with their end rings.
 
 use super::cap::Ring;
-use super::chambers::{RingSection, add_chamber, segment_names};
+use super::chambers::{RingSection, TubeLook, add_chamber, segment_names};
 use super::clearance::ChamberPolygon;
 use super::error::BuildError;
 use super::nodes::passage_nodes;
 use super::stack::Stack;
+use super::style;
 use super::tube::CutTube;
 use super::turns::{ShellCheck, TurnSite, add_turn};
 use crate::plan::Plan;
 use crate::section::{ChamberRing, ClosureKind, Refusal, RingRequest, SEGMENTS, WallRequest, chamber_ring};
 use coolinggen_blade::{Blade, Fault};
-use coolinggen_brep::{FaceId, FaceUse, Model};
+use coolinggen_brep::{FaceId, FaceUse, Model, Style};
 
 /// The parts of a passage in the order in which the coolant runs through them.
 #[derive(Clone, Debug)]
@@ -31,6 +32,8 @@ pub struct PassagePart {
     pub turn: Option<usize>,
     /// Its eight faces in the order of the ring; the second parameter of their surfaces runs along the passage.
     pub faces: Vec<FaceId>,
+    /// Faces of an insert that stands in it, in the same order; none where there is no insert.
+    pub inserted: Vec<FaceId>,
     /// Whether that parameter runs against the coolant.
     pub reversed: bool,
 }
@@ -51,12 +54,25 @@ pub(super) struct Passage {
     pub(super) branches: Vec<Branch>,
     /// Pins that stand in it: their faces, each with whether its natural normal points out of the coolant.
     pub(super) pins: Vec<Vec<(FaceId, bool)>>,
+    /// What it runs through.
+    pub(super) host: Host,
+}
+
+/// The solid that a passage or a bore runs through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Host {
+    /// The blade.
+    Metal,
+    /// This insert.
+    Insert(usize),
 }
 
 /// An end of a passage.
 #[derive(Clone, Debug)]
 pub(super) struct PassageEnd {
     pub(super) ring: Ring,
+    /// The ring of an insert that stands in it.
+    pub(super) inserted: Option<Ring>,
     /// Side of the span: 0 the hub's, 1 the tip's.
     pub(super) side: usize,
     /// Span fraction of the ring; 0 is open at the hub, 1 at the tip.
@@ -65,6 +81,8 @@ pub(super) struct PassageEnd {
     pub(super) name: String,
     /// Path of its faces, e.g. `chamber/leading`.
     pub(super) path: String,
+    /// How it looks where it is closed.
+    pub(super) style: Style,
 }
 
 /// A bore that leaves a passage.
@@ -82,6 +100,8 @@ pub(super) struct Link {
     pub(super) passages: [usize; 2],
     /// Its faces, each with whether its natural normal points out of the coolant.
     pub(super) faces: Vec<(FaceId, bool)>,
+    /// What it runs through.
+    pub(super) host: Host,
 }
 
 impl PassageEnd {
@@ -119,7 +139,9 @@ pub(super) fn add_chambers(
         let mut tubes = Vec::with_capacity(sections.len());
         for ((&k, sections), nodes) in chain.chambers.iter().zip(&sections).zip(&nodes) {
             let name = &plan.chambers[k].name;
-            tubes.push(add_chamber(model, name, face_names(plan, k), sections, nodes)?);
+            let names = face_names(plan, k, &format!("chamber/{name}"));
+            let look = TubeLook { names, style: style::chamber(name) };
+            tubes.push(add_chamber(model, &look, sections, nodes)?);
         }
         // A chamber ends where it has no turn; alone it ends at both sides.
         let away = |turn: Option<&usize>| turn.map(|&t| 1 - plan.turns[t].side());
@@ -128,7 +150,7 @@ pub(super) fn add_chambers(
         let mut from = sides[0];
         for (i, (&k, tube)) in chain.chambers.iter().zip(&tubes).enumerate() {
             let (path, faces) = (format!("chamber/{}", plan.chambers[k].name), tube.faces.clone());
-            parts.push(PassagePart { path, turn: None, faces, reversed: from == 1 });
+            parts.push(PassagePart { path, turn: None, faces, inserted: Vec::new(), reversed: from == 1 });
             from = 1 - from;
             if let Some(&t) = chain.turns.get(i) {
                 let faces = add_turn(model, &turns[t], [tube, &tubes[i + 1]], check)?;
@@ -137,6 +159,7 @@ pub(super) fn add_chambers(
                     path,
                     turn: Some(plan.turns[t].side()),
                     faces,
+                    inserted: Vec::new(),
                     reversed: plan.turns[t].side() == 0,
                 });
             }
@@ -144,10 +167,12 @@ pub(super) fn add_chambers(
         let (first, last) = (chain.chambers[0], chain.chambers[chain.chambers.len() - 1]);
         let end = |k: usize, tube: &CutTube, side: usize| PassageEnd {
             ring: tube.rings[side].clone(),
+            inserted: None,
             side,
             v: stack.spans.chambers[k][side],
             name: plan.chambers[k].name.clone(),
             path: format!("chamber/{}", plan.chambers[k].name),
+            style: style::chamber(&plan.chambers[k].name),
         };
         passages.push(Passage {
             name: plan.chambers[first].name.clone(),
@@ -158,17 +183,18 @@ pub(super) fn add_chambers(
             ends: [end(first, &tubes[0], sides[0]), end(last, &tubes[tubes.len() - 1], sides[1])],
             branches: Vec::new(),
             pins: Vec::new(),
+            host: Host::Metal,
         });
     }
     Ok((passages, polygons))
 }
 
-/// Names of a chamber's faces.
-fn face_names(plan: &Plan, k: usize) -> [String; SEGMENTS] {
+/// Names below a path of the faces of chamber `k` or of a tube in it.
+pub(super) fn face_names(plan: &Plan, k: usize, path: &str) -> [String; SEGMENTS] {
     let wall_name = |w: usize| format!("wall/{}", plan.walls[w].name);
     let front = if k == 0 { "leading_edge".to_owned() } else { wall_name(k - 1) };
     let back = if k + 1 == plan.chambers.len() { "trailing_edge".to_owned() } else { wall_name(k) };
-    segment_names(&plan.chambers[k].name, &front, &back)
+    segment_names(path, &front, &back)
 }
 
 /// The rings of chamber `k` in all sections of its span, and what is refused.
@@ -189,6 +215,14 @@ fn chamber_rings<'s>(stack: &'s Stack, plan: &Plan, k: usize) -> (Vec<RingSectio
 
 /// The ring of chamber `k` in section `i`, or what is refused.
 pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Box<Fault>> {
+    ring_of(stack, plan, k, i).map_err(|refusal| {
+        let v = stack.sections[i].stream.v();
+        Box::new(BuildError::fault(&blame(plan, k, &refusal), v, &refusal))
+    })
+}
+
+/// The ring of chamber `k` in section `i`; a refusal has its lengths in space.
+pub(super) fn ring_of(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Refusal> {
     let (section, offset) = (&stack.sections[i], &stack.offsets[i]);
     let v = section.stream.v();
     let (radius, scale) = (plan.chambers[k].fillet_radius.at(v), section.scale(offset.camber.at(0.5).center));
@@ -198,10 +232,7 @@ pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<
         0 if !offset.circle_is_clear() => Err(offset.nose_refusal(radius / scale)),
         _ => chamber_ring(&request),
     };
-    ring.map_err(|refusal| {
-        let refusal = refusal.in_space(scale, radius);
-        Box::new(BuildError::fault(&blame(plan, k, &refusal), v, &refusal))
-    })
+    ring.map_err(|refusal| refusal.in_space(scale, radius))
 }
 
 /// What closes chamber `k` in section `i` at its front and at its back.

@@ -1,8 +1,9 @@
-//! Caps and solids: the metal, and a coolant solid for all passages that bores join.
+//! Caps and solids: the metal, the inserts, and a coolant solid for all passages that bores join.
 
 use super::cap::{Ring, add_cap, points_up};
 use super::error::BuildError;
-use super::passages::{Link, Passage, PassageEnd};
+use super::inserts::Insert;
+use super::passages::{Host, Link, Passage, PassageEnd};
 use super::style;
 use coolinggen_blade::{StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
@@ -16,12 +17,24 @@ pub(super) struct Cap {
     pub(super) open: bool,
     /// Side of the span: 0 the hub's, 1 the tip's.
     pub(super) side: usize,
+    /// Whether it ends the metal, and not an insert.
+    in_metal: bool,
+}
+
+/// The faces that end an insert, as the insert uses them.
+pub(super) struct InsertCaps {
+    /// At the open end, between the tubes outside and inside.
+    rim: FaceUse,
+    /// The outer face of the plate at the closed end.
+    plate: FaceUse,
 }
 
 /// The faces that end the passages and the blade.
 pub(super) struct Caps {
     /// Of every passage.
     pub(super) passages: Vec<[Cap; 2]>,
+    /// Of every insert.
+    inserts: Vec<InsertCaps>,
     /// Hub and tip face as the metal uses them; the hub's alone where the blade ends in a point.
     pub(super) ends: Vec<FaceUse>,
 }
@@ -32,9 +45,9 @@ impl Caps {
         self.ends.get(1).copied()
     }
 
-    /// Faces that end a passage below the tip (1) or above the hub (0).
+    /// Faces of the metal that end a passage below the tip (1) or above the hub (0).
     pub(super) fn closed(&self) -> Vec<(FaceId, usize)> {
-        let caps = self.passages.iter().flatten().filter(|cap| !cap.open);
+        let caps = self.passages.iter().flatten().filter(|cap| !cap.open && cap.in_metal);
         caps.map(|cap| (cap.used.face, cap.side)).collect()
     }
 }
@@ -46,6 +59,7 @@ pub(super) fn add_caps(
     ends: &[StreamSurface; 2],
     rings: &[Ring; 2],
     passages: &[Passage],
+    inserts: &[Insert],
 ) -> Result<Caps, BuildError> {
     let mut openings: [Vec<Ring>; 2] = [Vec::new(), Vec::new()];
     let mut caps = Vec::with_capacity(passages.len());
@@ -62,22 +76,31 @@ pub(super) fn add_caps(
                 middle = space.surface(end.v)?;
                 &middle
             };
-            // Where both ends open on one side, the first chamber's is the inlet.
-            let enters = if both_open && one_side { i == 0 } else { side == 0 };
+            // Where both ends open on one side, the first chamber's is the inlet. A plenum has no other opening.
+            let plenum = passage.host != Host::Metal;
+            let enters = if both_open && one_side { i == 0 } else { side == 0 || plenum };
             let (name, style) = match (open, enters, side) {
                 (true, true, _) => (format!("coolant/inlet/{}", end.name), style::inlet()),
                 (true, false, _) => (format!("coolant/outlet/{}", end.name), style::outlet()),
-                (false, _, 0) => (format!("{}/hub_end", end.path), style::chamber(&end.name)),
-                (false, _, _) => (format!("{}/tip_end", end.path), style::chamber(&end.name)),
+                (false, _, 0) => (format!("{}/hub_end", end.path), end.style.clone()),
+                (false, _, _) => (format!("{}/tip_end", end.path), end.style.clone()),
             };
-            let face = add_cap(model, name, style, stream, &end.ring, &[])?;
+            let face = add_cap(model, name, style, stream, &end.ring, end.inserted.as_slice())?;
             let forward = points_up(model, face, stream) == (side == 1);
-            if open {
+            let in_metal = passage.host == Host::Metal;
+            if open && in_metal {
                 openings[side].push(end.ring.clone());
             }
-            own.push(Cap { used: FaceUse { face, forward }, open, side });
+            own.push(Cap { used: FaceUse { face, forward }, open, side, in_metal });
         }
         caps.push([own[0], own[1]]);
+    }
+    let mut insert_caps = Vec::with_capacity(inserts.len());
+    for insert in inserts {
+        if let Some(seat) = &insert.seat {
+            openings[insert.open].push(seat.rings[insert.open].clone());
+        }
+        insert_caps.push(add_insert_caps(model, space, ends, insert)?);
     }
     let mut end_faces = Vec::with_capacity(2);
     for (side, name) in [(0, "blade/hub"), (1, "blade/tip")] {
@@ -89,7 +112,26 @@ pub(super) fn add_caps(
         let forward = points_up(model, face, stream) == (side == 1);
         end_faces.push(FaceUse { face, forward });
     }
-    Ok(Caps { passages: caps, ends: end_faces })
+    Ok(Caps { passages: caps, inserts: insert_caps, ends: end_faces })
+}
+
+fn add_insert_caps(
+    model: &mut Model,
+    space: &StreamSpace,
+    ends: &[StreamSurface; 2],
+    insert: &Insert,
+) -> Result<InsertCaps, BuildError> {
+    let [outside, inside] = &insert.tubes;
+    let (open, closed) = (insert.open, 1 - insert.open);
+    let mut cap = |part: &str, stream: &StreamSurface, ring: &Ring, inner: &[Ring], side: usize| {
+        let name = format!("insert/{}/{part}", insert.name);
+        let face = add_cap(model, name, style::insert(), stream, ring, inner)?;
+        Ok::<_, BuildError>(FaceUse { face, forward: points_up(model, face, stream) == (side == 1) })
+    };
+    let outer = insert.seat.as_ref().unwrap_or(outside);
+    let rim = cap("rim", &ends[open], &outer.rings[open], &inside.rings[open..=open], open)?;
+    let plate = cap("plate", &space.surface(insert.plate_v)?, &outside.rings[closed], &[], closed)?;
+    Ok(InsertCaps { rim, plate })
 }
 
 /// A body of coolant: passages that links join.
@@ -124,72 +166,162 @@ fn bodies(count: usize, links: &[Link]) -> Vec<Body> {
     bodies
 }
 
-/// Adds the solids: `metal`, and `coolant/<passage>` for every passage, `coolant/<passage>+<passage>` for those that
-/// bores join.
-pub(super) fn add_solids(
-    model: &mut Model,
-    outward: bool,
-    outer: &[FaceId],
-    passages: &[Passage],
-    links: &[Link],
-    caps: &Caps,
-) {
+/// What solids are made of.
+pub(super) struct SolidParts<'a> {
+    /// Whether the outer faces' natural normals point out of the blade.
+    pub(super) outward: bool,
+    pub(super) outer: &'a [FaceId],
+    pub(super) passages: &'a [Passage],
+    pub(super) inserts: &'a [Insert],
+    pub(super) links: &'a [Link],
+    pub(super) caps: &'a Caps,
+}
+
+/// Adds the solids: `metal`, `insert/<chamber>` for every insert, and `coolant/<passage>` for every passage,
+/// `coolant/<passage>+<passage>` for those that bores join; plenums that jets empty give no name.
+pub(super) fn add_solids(model: &mut Model, parts: &SolidParts<'_>) {
     let mut metal = Shell::default();
-    metal.faces.extend(outer.iter().map(|&face| FaceUse { face, forward: outward }));
+    metal.faces.extend(parts.outer.iter().map(|&face| FaceUse { face, forward: parts.outward }));
+    let mut inserts: Vec<Shell> = parts.inserts.iter().zip(&parts.caps.inserts).map(bare_insert).collect();
     let (mut voids, mut coolants) = (Vec::new(), Vec::new());
     let mut through = 0;
-    for body in bodies(passages.len(), links) {
-        // The faces between the coolant and the metal, as the coolant uses them.
-        let mut wet = Shell::default();
-        let mut openings = Vec::new();
-        let used = |faces: &[(FaceId, bool)]| -> Vec<FaceUse> {
-            faces.iter().map(|&(face, forward)| FaceUse { face, forward }).collect()
-        };
-        // A graph of passages has one handle for each link beyond those that make it a tree; a pin is one more.
-        let mut handles = body.links.len() + 1 - body.passages.len();
-        let mut opened = 0;
-        for &k in &body.passages {
-            let passage = &passages[k];
-            let own = passage.faces.iter();
-            wet.faces.extend(own.map(|&face| FaceUse { face, forward: passage.outward }));
-            for branch in &passage.branches {
-                wet.faces.extend(used(&branch.faces));
-                openings.extend(branch.ends.iter().copied());
-                opened += usize::from(!branch.ends.is_empty());
-            }
-            for pin in &passage.pins {
-                wet.faces.extend(used(pin));
-            }
-            handles += passage.pins.len();
-            for cap in &caps.passages[k] {
-                (if cap.open { &mut openings } else { &mut wet.faces }).push(cap.used);
-                opened += usize::from(cap.open);
-            }
+    for body in bodies(parts.passages.len(), parts.links) {
+        let wet = parts.wet(&body);
+        for (insert, faces) in inserts.iter_mut().zip(&wet.inserts) {
+            insert.faces.extend(faces.reversed().faces);
         }
-        for &i in &body.links {
-            wet.faces.extend(used(&links[i].faces));
+        let mut dry = wet.metal.reversed();
+        let mut opened = wet.opened;
+        for insert in parts.inserts.iter().filter(|i| body.passages.contains(&i.passages[0])) {
+            let seat = insert.seat.iter().flat_map(|tube| &tube.faces);
+            dry.faces.extend(seat.map(|&face| FaceUse { face, forward: !insert.outward }));
+            opened += usize::from(insert.seat.is_some());
         }
-        let dry = wet.reversed();
         if opened > 0 {
             metal.faces.extend(dry.faces);
-        } else {
+        } else if !dry.faces.is_empty() {
             voids.push(dry);
         }
         // The first opening makes a pocket of the coolant, every other one a handle of the metal; so does every handle
-        // of the coolant.
-        through += handles + opened.saturating_sub(1);
-        let names: Vec<&str> = body.passages.iter().map(|&k| passages[k].name.as_str()).collect();
-        let mut coolant = wet;
-        coolant.faces.extend(openings);
+        // of the coolant that goes round metal.
+        through += wet.handles_in_metal + opened.saturating_sub(1);
+        let mut coolant = wet.metal;
+        coolant.faces.extend(wet.inserts.into_iter().flat_map(|shell| shell.faces));
+        coolant.faces.extend(wet.openings);
         coolants.push(Solid {
-            name: format!("coolant/{}", names.join("+")),
+            name: format!("coolant/{}", parts.body_name(&body)),
             shells: vec![coolant],
-            expected_genus: handles,
+            expected_genus: wet.handles,
         });
     }
-    metal.faces.extend(&caps.ends);
+    metal.faces.extend(&parts.caps.ends);
     let mut shells = vec![metal];
     shells.extend(voids);
     model.solids.push(Solid { name: "metal".into(), shells, expected_genus: through });
+    for (i, (insert, shell)) in parts.inserts.iter().zip(inserts).enumerate() {
+        // A closed tube has no handle; every jet makes one.
+        let jets = parts.links.iter().filter(|link| link.host == Host::Insert(i)).count();
+        let name = format!("insert/{}", insert.name);
+        model.solids.push(Solid { name, shells: vec![shell], expected_genus: jets });
+    }
     model.solids.extend(coolants);
+}
+
+/// The faces of an insert that no coolant touches.
+fn bare_insert((insert, caps): (&Insert, &InsertCaps)) -> Shell {
+    let seat = insert.seat.iter().flat_map(|tube| &tube.faces);
+    let seat = seat.map(|&face| FaceUse { face, forward: insert.outward });
+    Shell { faces: seat.chain([caps.rim]).collect() }
+}
+
+/// The faces of a body of coolant, as it uses them.
+struct Wet {
+    /// Towards the metal.
+    metal: Shell,
+    /// Towards each insert.
+    inserts: Vec<Shell>,
+    /// Where coolant enters and leaves.
+    openings: Vec<FaceUse>,
+    /// Number of places at which it leaves the metal.
+    opened: usize,
+    /// Handles of the body.
+    handles: usize,
+    /// Of these, the ones that go round metal.
+    handles_in_metal: usize,
+}
+
+impl SolidParts<'_> {
+    fn wet(&self, body: &Body) -> Wet {
+        let used = |faces: &[(FaceId, bool)]| -> Vec<FaceUse> {
+            faces.iter().map(|&(face, forward)| FaceUse { face, forward }).collect()
+        };
+        let in_metal = |host: Host| host == Host::Metal;
+        let passages = || body.passages.iter().map(|&k| &self.passages[k]);
+        let links = || body.links.iter().map(|&i| &self.links[i]);
+        let pins: usize = passages().map(|p| p.pins.len()).sum();
+        let trees = [passages().count(), passages().filter(|p| in_metal(p.host)).count()];
+        let joints = [links().count(), links().filter(|l| in_metal(l.host)).count()];
+        // A graph of passages has one handle for each link beyond those that make it a tree; a pin is one more.
+        let handles = [0, 1].map(|i| (joints[i] + 1).saturating_sub(trees[i].max(1)) + pins);
+        let mut wet = Wet {
+            metal: Shell::default(),
+            inserts: vec![Shell::default(); self.inserts.len()],
+            openings: Vec::new(),
+            opened: 0,
+            handles: handles[0],
+            handles_in_metal: handles[1],
+        };
+        for &k in &body.passages {
+            let passage = &self.passages[k];
+            for branch in &passage.branches {
+                wet.metal.faces.extend(used(&branch.faces));
+                wet.openings.extend(branch.ends.iter().copied());
+                wet.opened += usize::from(!branch.ends.is_empty());
+            }
+            for pin in &passage.pins {
+                wet.metal.faces.extend(used(pin));
+            }
+            let own = passage.faces.iter();
+            let own = own.map(|&face| FaceUse { face, forward: passage.outward });
+            wet.shell(passage.host).faces.extend(own);
+            for cap in &self.caps.passages[k] {
+                if cap.open {
+                    wet.openings.push(cap.used);
+                    wet.opened += usize::from(cap.in_metal);
+                } else {
+                    wet.shell(passage.host).faces.push(cap.used);
+                }
+            }
+            for (i, (insert, caps)) in self.inserts.iter().zip(&self.caps.inserts).enumerate() {
+                if insert.passages[0] == k {
+                    let outside = insert.outside.iter();
+                    let outside = outside.map(|&face| FaceUse { face, forward: !insert.outward });
+                    let plate = FaceUse { forward: !caps.plate.forward, ..caps.plate };
+                    wet.inserts[i].faces.extend(outside.chain([plate]));
+                }
+            }
+        }
+        for link in links() {
+            wet.shell(link.host).faces.extend(used(&link.faces));
+        }
+        wet
+    }
+
+    /// Its passages' names; a plenum's only where it stands alone.
+    fn body_name(&self, body: &Body) -> String {
+        let passages = || body.passages.iter().map(|&k| &self.passages[k]);
+        let in_metal: Vec<&str> =
+            passages().filter(|p| p.host == Host::Metal).map(|p| p.name.as_str()).collect();
+        if in_metal.is_empty() { passages().map(|p| p.name.as_str()).collect() } else { in_metal.join("+") }
+    }
+}
+
+impl Wet {
+    /// The faces towards a solid.
+    fn shell(&mut self, host: Host) -> &mut Shell {
+        match host {
+            Host::Metal => &mut self.metal,
+            Host::Insert(i) => &mut self.inserts[i],
+        }
+    }
 }

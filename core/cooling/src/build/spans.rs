@@ -81,7 +81,7 @@ pub(super) fn spans(
     let limit = |side: usize| -> Result<f64, BuildError> {
         match [shell.hub, shell.tip][side] {
             None => Ok([0.0, 1.0][side]),
-            Some(metal) => inside(blade, space, grid, side, metal),
+            Some(metal) => within(blade, space, grid, side, metal),
         }
     };
     let top = if shell.tip.is_some() { limit(1)? } else { 1.0 };
@@ -138,31 +138,41 @@ pub(super) fn spans(
     if faults.is_empty() { Ok(Spans { chambers, turns }) } else { Err(BuildError::Refused(faults)) }
 }
 
-/// The span fraction that lies everywhere at least `metal` below the tip (side 1) or above the hub (side 0): stream
-/// surfaces are no offsets of each other.
-fn inside(
+/// The span fraction that lies everywhere at least `metal` below the tip (side 1) or above the hub (side 0).
+fn within(
     blade: &Blade,
     space: &StreamSpace,
     grid: &Grid,
     side: usize,
     metal: f64,
 ) -> Result<f64, BuildError> {
-    const STEPS: u32 = 20;
-    let sign = [-1.0, 1.0][side];
-    let section = Section::new(blade, space, grid, [0.0, 1.0][side])?;
-    let mut v = [0.0, 1.0][side];
-    for i in 0..=STEPS {
-        let at = section.stream.to_space(section.camber.at(f64::from(i) / f64::from(STEPS)).center);
-        let up = section.stream.level(at).1;
-        let here = space.span_fraction(at - up * (sign * metal))?;
-        v = if side == 1 { f64::min(v, here) } else { f64::max(v, here) };
-    }
+    let v = inside(space, &Section::new(blade, space, grid, [0.0, 1.0][side])?, side, metal)?;
     let left = [1.0 - v, v][side];
     if !(left > 0.05) {
         let name = ["hub", "tip"][side];
         let message = format!("the {name} thickness leaves no room for a chamber");
         let fault = Fault::new(format!("/cooling/shell/{name}"), "geometry", message).value(metal).unit("mm");
         return Err(BuildError::Refused(vec![fault]));
+    }
+    Ok(v)
+}
+
+/// The span fraction that lies everywhere at least `distance` mm below a section (side 1) or above it (side 0): stream
+/// surfaces are no offsets of each other.
+pub(super) fn inside(
+    space: &StreamSpace,
+    section: &Section,
+    side: usize,
+    distance: f64,
+) -> Result<f64, BuildError> {
+    const STEPS: u32 = 20;
+    let sign = [-1.0, 1.0][side];
+    let mut v = section.stream.v();
+    for i in 0..=STEPS {
+        let at = section.stream.to_space(section.camber.at(f64::from(i) / f64::from(STEPS)).center);
+        let up = section.stream.level(at).1;
+        let here = space.span_fraction(at - up * (sign * distance))?;
+        v = if side == 1 { f64::min(v, here) } else { f64::max(v, here) };
     }
     Ok(v)
 }

@@ -41,8 +41,22 @@ impl Stack {
         fractions.sort_by(f64::total_cmp);
         fractions.dedup();
         let front = reach(&spans, plan, 0);
-        let sections: Vec<Section> =
+        let sections =
             fractions.iter().map(|&v| Section::new(blade, space, grid, v)).collect::<Result<_, _>>()?;
+        Self::through(blade, grid, sections, spans, plan, shell, Some(front))
+    }
+
+    /// The stack through given sections. `front` is the range of span fractions in which the leading chamber must be
+    /// closed at its nose; none where nothing is asked of it.
+    pub(super) fn through(
+        blade: &Blade,
+        grid: &Grid,
+        sections: Vec<Section>,
+        spans: Spans,
+        plan: &Plan,
+        shell: &ShellPlan,
+        front: Option<[f64; 2]>,
+    ) -> Result<Self, BuildError> {
         let walls = plan.walls.iter().map(|wall| wall_lines(&sections, wall)).collect::<Result<_, _>>()?;
         let (first, last) = (&plan.chambers[0], &plan.chambers[plan.chambers.len() - 1]);
         let mut refusals = Vec::new();
@@ -61,10 +75,12 @@ impl Stack {
         if !refusals.is_empty() {
             return Err(BuildError::worst(refusals));
         }
-        let nose = if natural_nose(grid, &sections, &offsets, plan, front) {
-            Some(vec![grid.leading_edge; sections.len()])
-        } else {
-            round_noses(grid, &sections, &mut offsets, front, ends)?
+        let nose = match front {
+            None => None,
+            Some(front) if natural_nose(grid, &sections, &offsets, plan, front) => {
+                Some(vec![grid.leading_edge; sections.len()])
+            }
+            Some(front) => round_noses(grid, &sections, &mut offsets, front, ends)?,
         };
         Ok(Self { sections, offsets, walls, spans, nose })
     }

@@ -26,6 +26,16 @@ pub(super) fn turn(name: &str) -> Style {
     style(format!("turn/{name}"), [0.72, 0.40, 0.62])
 }
 
+/// Sheets of inserts.
+pub(super) fn insert() -> Style {
+    style("insert", [0.36, 0.62, 0.52])
+}
+
+/// Walls of jets.
+pub(super) fn jet() -> Style {
+    style("insert/jet", [0.20, 0.45, 0.38])
+}
+
 /// Faces between metal and the coolant of a radial hole.
 pub(super) fn radial_hole() -> Style {
     style("radial_hole", [0.90, 0.62, 0.20])

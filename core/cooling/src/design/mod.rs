@@ -7,6 +7,7 @@ mod chambers;
 mod crossovers;
 mod dust_holes;
 mod film;
+mod inserts;
 mod pins;
 mod radial_holes;
 mod read;
@@ -19,11 +20,12 @@ pub use chambers::{Chamber, Shell, Wall};
 pub use crossovers::CrossoverRow;
 pub use dust_holes::DustHole;
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
+pub use inserts::{Insert, InsertSide, JetArray};
 pub use pins::PinArray;
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, faults_against, schema_faults};
 pub use slots::SlotRow;
-pub use turns::{Automatic, Clearance, Turn, TurnEnd};
+pub use turns::{Automatic, Clearance, SpanEnd, Turn};
 
 use crate::plan::Plan;
 use coolinggen_blade::{BladeSource, Fault, SpaceSpec};
@@ -75,6 +77,10 @@ pub struct Cooling {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 64))]
     pub turns: Vec<Turn>,
+    /// Impingement inserts: sheet-metal tubes in chambers.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 33))]
+    pub inserts: Vec<Insert>,
     /// Round passages straight from hub to tip.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]

@@ -14,7 +14,7 @@ pub struct Turn {
     /// so that the turn leaves the shell's metal below the tip or above the hub.
     pub between: [String; 2],
     /// Where the wall ends.
-    pub end: TurnEnd,
+    pub end: SpanEnd,
     /// Height of the passage beyond the wall's end, mm, measured in space along the wall's mid line; `auto` makes the
     /// flow area there the mean of the two chambers'.
     #[serde(default)]
@@ -29,11 +29,21 @@ pub struct Turn {
 /// An end of the span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum TurnEnd {
+pub enum SpanEnd {
     /// At the tip.
     Tip,
     /// At the hub.
     Hub,
+}
+
+impl SpanEnd {
+    /// 0 at the hub, 1 at the tip.
+    pub fn side(self) -> usize {
+        match self {
+            Self::Hub => 0,
+            Self::Tip => 1,
+        }
+    }
 }
 
 /// A length, or the one that keeps the flow area.

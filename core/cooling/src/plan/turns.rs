@@ -1,7 +1,7 @@
 //! Turns and the passages they make of chambers.
 
 use super::{ChamberPlan, Maker};
-use crate::design::{Clearance, Cooling, Turn, TurnEnd};
+use crate::design::{Clearance, Cooling, SpanEnd, Turn};
 use coolinggen_blade::{Fault, Pointer};
 
 /// A turn; see [`crate::design::Turn`].
@@ -14,7 +14,7 @@ pub struct TurnPlan {
     /// The chamber before the wall; the next one lies behind it.
     pub front: usize,
     /// Where.
-    pub end: TurnEnd,
+    pub end: SpanEnd,
     /// Millimetres; none where the flow area decides.
     pub clearance: Option<f64>,
     /// Of the outer side's superellipse.
@@ -24,10 +24,7 @@ pub struct TurnPlan {
 impl TurnPlan {
     /// 0 at the hub, 1 at the tip.
     pub fn side(&self) -> usize {
-        match self.end {
-            TurnEnd::Hub => 0,
-            TurnEnd::Tip => 1,
-        }
+        self.end.side()
     }
 
     /// JSON pointer to the turn.

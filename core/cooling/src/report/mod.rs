@@ -1,6 +1,7 @@
 //! The report of a built design: what it is, measured.
 
 mod inner_bores;
+mod inserts;
 mod passages;
 mod text;
 mod thickness;
@@ -14,6 +15,7 @@ use std::collections::BTreeMap;
 use thickness::thinnest_walls;
 
 pub use inner_bores::{CrossoverReport, DustHoleReport, PinReport};
+pub use inserts::{InsertReport, JetReport};
 pub use passages::{PartReport, PassageReport, StationReport};
 pub use thickness::ThinnestWall;
 
@@ -60,6 +62,12 @@ pub struct Report {
     /// The dust holes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub dust_holes: Vec<DustHoleReport>,
+    /// The inserts.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub inserts: Vec<InsertReport>,
+    /// The jets, insert by insert and array by array.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub jets: Vec<JetReport>,
     /// How the outer surface compares with the data it was made from.
     pub blade_fit: FitReport,
     /// Time spent, milliseconds.
@@ -193,6 +201,15 @@ pub struct SlotReport {
     pub breakout_mm2: f64,
 }
 
+/// Least and greatest of a length, mm.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Range {
+    /// Least.
+    pub min: f64,
+    /// Greatest.
+    pub max: f64,
+}
+
 /// Time spent, milliseconds.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Timings {
@@ -234,12 +251,17 @@ impl Report {
             dust_holes: (cooled.bores.dust_holes.iter())
                 .map(|hole| DustHoleReport::new(hole, integrals[hole.breakout.0].area_mm2))
                 .collect(),
+            inserts: Vec::new(),
+            jets: cooled.bores.jets.iter().map(inserts::jet_report).collect(),
             blade_fit: blade.fit.clone(),
             timings_ms: Timings::default(),
         };
         report.measure_solids(model, &integrals)?;
         let passages = cooled.passages.iter().map(|p| passages::passage(model, &p.name, &p.parts));
         report.passages = passages.collect::<Result<_, _>>()?;
+        let inserts = cooled.inserts.iter();
+        let inserts = inserts.map(|i| inserts::insert_report(model, &integrals, i, &cooled.bores.jets));
+        report.inserts = inserts.collect::<Result<_, _>>()?;
         let walls = thinnest_walls(blade, cooled)?;
         report.radial_holes = cooled.radial_holes.iter().map(|hole| radial_hole(hole, &walls)).collect();
         report.wall_thickness_mm = walls.into_iter().min_by(|a, b| a.min.total_cmp(&b.min));

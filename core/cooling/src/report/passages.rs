@@ -1,7 +1,7 @@
 //! Passages: centre line, flow area, perimeter and hydraulic diameter along each chain of chambers and turns.
 
 use crate::build::{BuildError, PassagePart};
-use coolinggen_brep::Model;
+use coolinggen_brep::{FaceId, Model};
 use coolinggen_nurbs::{Interpolator, ParametricCurve, ParametricSurface};
 use glam::DVec3;
 use serde::Serialize;
@@ -58,7 +58,7 @@ pub(super) fn passage(model: &Model, name: &str, parts: &[PassagePart]) -> Resul
         for i in u32::from(!rings.is_empty())..=steps {
             let fraction = f64::from(i) / f64::from(steps);
             let fraction = if part.reversed { 1.0 - fraction } else { fraction };
-            rings.push(Ring::of(model, part, low + (high - low) * fraction));
+            rings.push(Ring::of_part(model, part, low + (high - low) * fraction));
         }
         borders.push(rings.len() - 1);
     }
@@ -104,11 +104,31 @@ const GAUSS: [(f64, f64); 3] =
     [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 4.0 / 9.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 
 impl Ring {
-    /// The ring of a part's faces at the parameter `v`, by Gauss' rule span by span.
-    fn of(model: &Model, part: &PassagePart, v: f64) -> Self {
-        let origin = model.face(part.faces[0]).surface.point(0.0, v);
+    /// The ring of a part at the parameter `v`, less that of an insert that stands there.
+    fn of_part(model: &Model, part: &PassagePart, v: f64) -> Self {
+        let whole = Self::of(model, &part.faces, v);
+        let stands = part.inserted.first().is_some_and(|&face| {
+            let (_, (low, high)) = model.face(face).surface.domain();
+            (low..=high).contains(&v)
+        });
+        if !stands {
+            return whole;
+        }
+        let insert = Self::of(model, &part.inserted, v);
+        let area = whole.area - insert.area;
+        let share = insert.area.length() / area.length();
+        Self {
+            area,
+            perimeter: whole.perimeter + insert.perimeter,
+            center: whole.center + (whole.center - insert.center) * share,
+        }
+    }
+
+    /// The ring of faces at the parameter `v`, by Gauss' rule span by span.
+    fn of(model: &Model, faces: &[FaceId], v: f64) -> Self {
+        let origin = model.face(faces[0]).surface.point(0.0, v);
         let mut samples = Vec::new();
-        for &id in &part.faces {
+        for &id in faces {
             let surface = &model.face(id).surface;
             for span in surface.breaks_u().windows(2) {
                 for (x, weight) in GAUSS {

@@ -1,6 +1,6 @@
 //! The report as a page of text.
 
-use super::{HoleReport, PassageReport, Report, StationReport};
+use super::{HoleReport, JetReport, PassageReport, Range, Report, StationReport};
 use std::fmt::Write;
 
 /// A table of what matters first.
@@ -58,6 +58,7 @@ fn write(report: &Report, out: &mut String) -> std::fmt::Result {
     }
     film_rows(report, out)?;
     inner_bores(report, out)?;
+    inserts(report, out)?;
     let fit = &report.blade_fit;
     if fit.points > 0 {
         writeln!(
@@ -159,6 +160,39 @@ fn inner_bores(report: &Report, out: &mut String) -> std::fmt::Result {
         BoreTable { titles: ["dust hole", "holes", "ligament mm", "from"], bores: dust.collect() },
     ];
     tables.iter().try_for_each(|table| table.write(out))
+}
+
+/// A line an insert, and below it one for each of its arrays: the jets themselves are in the JSON report.
+fn inserts(report: &Report, out: &mut String) -> std::fmt::Result {
+    if report.inserts.is_empty() {
+        return Ok(());
+    }
+    let range = |range: &Range| format!("{:.3} .. {:.3}", range.min, range.max);
+    let head = ["insert", "sheet mm2", "thickness mm", "gap mm", "jets", "jet area mm2"];
+    let [name, area, thickness, gap, jets, jet_area] = head;
+    writeln!(out, "\n  {name:<24} {area:>10} {thickness:>16} {gap:>16} {jets:>6} {jet_area:>13}")?;
+    for insert in &report.inserts {
+        let (thickness, gap) = (range(&insert.thickness_mm), range(&insert.gap_mm));
+        let (name, area, jets, jet_area) = (&insert.name, insert.area_mm2, insert.jets, insert.jet_area_mm2);
+        writeln!(out, "  {name:<24} {area:>10.3} {thickness:>16} {gap:>16} {jets:>6} {jet_area:>13.4}")?;
+    }
+    if report.jets.is_empty() {
+        return Ok(());
+    }
+    let [name, count, d, x, y, z] = ["jet array", "jets", "d mm", "x/d", "y/d", "z/d"];
+    writeln!(out, "\n  {name:<24} {count:>6} {d:>9} {x:>7} {y:>7} {z:>16}")?;
+    let array =
+        |jet: &JetReport| jet.name.rsplit_once('/').map_or(String::new(), |(array, _)| array.to_owned());
+    for jets in report.jets.chunk_by(|a, b| array(a) == array(b)) {
+        let optional = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2}"));
+        let distances = jets.iter().filter_map(|jet| jet.target_d);
+        let (low, high) = distances.fold((f64::INFINITY, 0.0f64), |(l, h), z| (l.min(z), h.max(z)));
+        let z = if low <= high { format!("{low:.2} .. {high:.2}") } else { "-".into() };
+        let (first, name) = (&jets[0], array(&jets[0]).replacen("insert/", "", 1).replacen("/jet/", "/", 1));
+        let (x, y) = (optional(first.streamwise_pitch_d), optional(first.spanwise_pitch_d));
+        writeln!(out, "  {name:<24} {:>6} {:>9.4} {x:>7} {y:>7} {z:>16}", jets.len(), first.diameter_mm)?;
+    }
+    Ok(())
 }
 
 /// A line for the passage and one for each of its parts: length, range of flow area and of hydraulic diameter.
