@@ -40,6 +40,11 @@ impl RingSection<'_> {
     }
 }
 
+/// Indices in a chamber's ring of its back closure, seen from the suction side, and of its front closure, seen from the
+/// pressure side: at a wall a fillet, the flat face and a fillet.
+pub(super) const BACK: [usize; 3] = [1, 2, 3];
+pub(super) const FRONT: [usize; 3] = [5, 6, 7];
+
 /// Names of the eight faces below a path, from those of the front and the back closure.
 pub(super) fn segment_names(path: &str, front: &str, back: &str) -> [String; SEGMENTS] {
     let path = |part: &str| format!("{path}/{part}");

@@ -1,6 +1,7 @@
 //! Crossover holes: straight bores through the wall between two chambers.
 
 use super::blank::Blank;
+use super::chambers::{BACK, FRONT};
 use super::error::BuildError;
 use super::fit::{greatest, nearest};
 use super::style;
@@ -33,10 +34,6 @@ pub struct CrossoverGeometry {
     /// Metal to the nearest other bore, mm; none if that is far.
     pub ligament: Option<f64>,
 }
-
-/// Indices in a chamber's ring: of the closures' faces, fillets included, the flat one in the middle.
-const BACK: [usize; 3] = [1, 2, 3];
-const FRONT: [usize; 3] = [5, 6, 7];
 
 /// A wall as its two chambers have it.
 struct Wall {

@@ -1,6 +1,7 @@
 //! Dust holes: round bores from a chamber's end, or from the turn there, through the tip.
 
 use super::blank::Blank;
+use super::chambers::{BACK, FRONT};
 use super::error::BuildError;
 use super::fit::greatest;
 use super::passages::ring_at;
@@ -114,7 +115,7 @@ fn start(stack: &Stack, plan: &Plan, hole: &DustHolePlan) -> Result<[DVec3; 3], 
         let distance = |f: &f64| offset.camber.at(*f).center.distance_squared(middle);
         all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0.0)
     };
-    let (front, back) = (fraction(6), fraction(2));
+    let (front, back) = (fraction(FRONT[1]), fraction(BACK[1]));
     let circle = offset.camber.at(front + (back - front) * hole.position);
     let (point, dm, dt) = section.stream.to_space_derivatives(circle.center);
     let vector = |q: DVec2| (dm * q.x + dt * q.y).normalize();

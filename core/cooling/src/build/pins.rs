@@ -2,6 +2,7 @@
 
 use super::blank::Blank;
 use super::camber_net::{CamberLine, CamberNet, CamberPoint};
+use super::chambers::{BACK, FRONT};
 use super::error::BuildError;
 use super::fit::{greatest, nearest};
 use super::ligaments::Ligaments;
@@ -79,9 +80,8 @@ pub(super) fn add_pin_arrays(
             continue;
         }
         let caster = Caster::new(blank.model, chamber.faces.iter().copied());
-        // The flat faces of its walls, in the order of a chamber's ring.
         let (front, back) = (array.chamber > 0, array.chamber + 1 < plan.chambers.len());
-        let walls = [(front, 6), (back, 2)].map(|(wall, k)| wall.then(|| chamber.faces[k]));
+        let walls = [(front, FRONT[1]), (back, BACK[1])].map(|(wall, k)| wall.then(|| chamber.faces[k]));
         let room = Room { blank, caster, passage, walls };
         for pin in pins(&net, &room, array)? {
             match pin {
