@@ -1,6 +1,7 @@
 //! Jets: round bores through an insert's sheet, in arrays of rows and columns.
 
 use super::super::blank::Blank;
+use super::super::chambers::{BACK, FRONT};
 use super::super::error::BuildError;
 use super::super::ligaments::Ligaments;
 use super::super::style;
@@ -126,15 +127,16 @@ struct SideFaces<'m> {
 impl<'m> SideFaces<'m> {
     fn new(model: &'m Model, insert: &Insert, side: InsertSide) -> Self {
         // In the order of a ring's segments.
-        let (range, reversed) = match side {
-            InsertSide::SuctionSide => (0..1, false),
-            InsertSide::Back => (1..4, false),
-            InsertSide::PressureSide => (4..5, true),
-            InsertSide::Front => (5..8, false),
+        let (segments, reversed): (&[usize], bool) = match side {
+            InsertSide::SuctionSide => (&[0], false),
+            InsertSide::Back => (&BACK, false),
+            InsertSide::PressureSide => (&[4], true),
+            InsertSide::Front => (&FRONT, false),
         };
+        let faces = segments.iter().map(|&k| insert.tubes[0].faces[k]).collect();
         let spans = insert.tubes.each_ref().map(|tube| model.face(tube.faces[0]).surface.domain().1);
         let span = (spans[0].0.max(spans[1].0), spans[0].1.min(spans[1].1));
-        Self { model, faces: insert.tubes[0].faces[range].to_vec(), reversed, span }
+        Self { model, faces, reversed, span }
     }
 
     fn point(&self, place: (FaceId, f64), v: f64) -> DVec3 {
