@@ -4,7 +4,7 @@ mod turns;
 
 pub use turns::{Chain, TurnPlan};
 
-use crate::design::{Chamber, Cooling, FilmRow, HolePlacement, HoleShape, Side, SlotRow};
+use crate::design::{Chamber, Cooling, Cutback, FilmRow, HolePlacement, HoleShape, Side, SlotRow};
 use coolinggen_blade::{Fault, Law, LawSpec, Pointer};
 use std::collections::HashSet;
 
@@ -25,8 +25,10 @@ pub struct Plan {
     pub film_rows: Vec<FilmRowPlan>,
     /// Rows of slots.
     pub slot_rows: Vec<SlotRowPlan>,
-    /// Least metal between neighbouring film holes, mm.
+    /// Least metal between neighbouring film holes, between slots and beside them, mm.
     pub least_ligament: f64,
+    /// How far the coolant goes on before its inlets at the hub, mm.
+    pub inlet_extension: Option<f64>,
 }
 
 /// Shell thickness, mm.
@@ -141,6 +143,8 @@ pub struct SlotRowPlan {
     pub width: f64,
     /// Millimetres.
     pub corner_radius: f64,
+    /// How the pressure side is cut back, if it is.
+    pub cutback: Option<Cutback>,
 }
 
 /// How many holes a row has.
@@ -233,8 +237,17 @@ impl Maker {
                 self.slot_row(row, !cooling.chambers.is_empty(), &root.at("slot_rows").at(i))
             })
             .collect();
-        let least_ligament = cooling.least_ligament;
-        Plan { shell, walls, chambers, turns, radial_holes, film_rows, slot_rows, least_ligament }
+        Plan {
+            shell,
+            walls,
+            chambers,
+            turns,
+            radial_holes,
+            film_rows,
+            slot_rows,
+            least_ligament: cooling.least_ligament,
+            inlet_extension: cooling.inlet_extension,
+        }
     }
 
     /// None, with faults, where the row's number is not said once.
@@ -258,6 +271,7 @@ impl Maker {
             height: row.height,
             width: row.width,
             corner_radius: row.corner_radius,
+            cutback: row.cutback,
         })
     }
 

@@ -14,7 +14,7 @@ mod target;
 
 pub(crate) use build::{BoreNames, Drill};
 pub(crate) use ligament::{Hull, Neighbour, neighbours};
-pub(crate) use shape::{BoreShape, Frame, circle, rounded_rectangle, stretched_circle};
+pub(crate) use shape::{BoreShape, Frame, circle, fanned, rounded_rectangle, stretched_circle};
 pub(crate) use target::Mouth;
 
 use std::fmt;

@@ -5,6 +5,7 @@ use super::cap::{Ring, add_cap, points_up};
 use super::clearance::{self, ChamberPolygon};
 use super::error::BuildError;
 use super::film::{FilmHoleGeometry, add_film_rows};
+use super::inlet::add_extension;
 use super::passages::{Passage, PassageEnd, PassageParts, add_chambers};
 use super::pointed::add_pointed_tube;
 use super::probe::Probe;
@@ -95,11 +96,11 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
                 parts: Vec::new(),
             };
             film_holes = add_film_rows(&mut blank, &sides, &plan.film_rows, plan.least_ligament)?;
-            slots = add_slot_rows(&mut blank, &sections, &tails, &plan.slot_rows)?;
+            slots = add_slot_rows(&mut blank, &sections, &tails, &plan.slot_rows, plan.least_ligament)?;
         }
     }
     let passage_faces = passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
-    let caps = add_solids(&mut model, blade, space, &ends, &outer, &passages)?;
+    let caps = add_solids(&mut model, (blade, space), &ends, &outer, &passages, plan.inlet_extension)?;
     let parts = passages.into_iter().filter(|p| !p.parts.is_empty());
     let parts = parts.map(|p| PassageParts { name: p.name, parts: p.parts }).collect();
     let mut outer_faces = outer.faces;
@@ -204,11 +205,11 @@ struct Ends {
 /// Caps and solids.
 fn add_solids(
     model: &mut Model,
-    blade: &Blade,
-    space: &StreamSpace,
+    (blade, space): (&Blade, &StreamSpace),
     ends: &[StreamSurface; 2],
     outer: &CutTube,
     passages: &[Passage],
+    inlet_extension: Option<f64>,
 ) -> Result<Ends, BuildError> {
     let mut closed_ends = Vec::new();
     let mut metal = Shell::default();
@@ -251,6 +252,11 @@ fn add_solids(
                 (false, _, 0) => (format!("{}/hub_end", end.path), style::chamber(&end.name)),
                 (false, _, _) => (format!("{}/tip_end", end.path), style::chamber(&end.name)),
             };
+            if let (Some(length), true, 0) = (inlet_extension, open && enters, side) {
+                coolant.faces.extend(add_extension(model, &name, stream, &end.ring, length)?);
+                openings[side].push(end.ring.clone());
+                continue;
+            }
             let cap = add_cap(model, name, style, stream, &end.ring, &[])?;
             let forward = points_up(model, cap, stream) == (side == 1);
             coolant.faces.push(FaceUse { face: cap, forward });

@@ -3,8 +3,8 @@
 use super::passages::{Branch, Passage};
 use super::style;
 use crate::bore::{BoreError, BoreNames, BoreShape, Drill, Mouth};
-use coolinggen_blade::StreamSurface;
-use coolinggen_brep::{Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
+use coolinggen_blade::{Region, StreamSurface};
+use coolinggen_brep::{Caster, Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
 use coolinggen_nurbs::{ParametricCurve, ParametricSurface, Surface};
 use glam::{DVec2, DVec3};
 
@@ -66,6 +66,16 @@ impl Blank<'_> {
     fn part_at(&self, face: FaceId, at: DVec2) -> FaceId {
         let mut parts = self.parts.iter().filter(|(_, whole)| *whole == face).map(|(part, _)| *part);
         parts.find(|&part| FaceDomain::new(self.model.face(part)).contains(at)).unwrap_or(face)
+    }
+
+    /// What lines meet of one region of the outer surface, as it was before any bore.
+    pub(super) fn outer_caster(&self, region: Region) -> Caster {
+        let path = format!("blade/{}", region.name());
+        let own = |face: &&FaceId| {
+            let rest = self.model.face(**face).name.strip_prefix(&path);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        Caster::new(self.model, self.outer.iter().filter(own).copied())
     }
 
     /// The outer face that a point of the blade's surface lies on, with u in [0, 1].

@@ -9,6 +9,7 @@ mod chambers;
 mod clearance;
 mod error;
 mod film;
+mod inlet;
 mod nodes;
 mod passages;
 mod pointed;
