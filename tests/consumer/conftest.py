@@ -1,4 +1,4 @@
-"""Fixtures: every sample is generated once a session; the outside programs see all of them in one process."""
+"""Fixtures: every sample is generated once a session; the outside programs look at them beside the tests."""
 
 from __future__ import annotations
 
@@ -17,6 +17,20 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         if not samples:
             raise pytest.UsageError(f"no samples in {cli.SAMPLES}")
         metafunc.parametrize("sample", samples, ids=[path.stem for path in samples], scope="session")
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What waits for outside programs comes last, FreeCAD's minutes behind Gmsh's."""
+    waits = {"test_gmsh": 1, "test_freecad": 2}
+    items.sort(key=lambda item: waits.get(item.path.stem, 0))
+
+
+@pytest.fixture(scope="session", autouse=True)
+def witnesses(request: pytest.FixtureRequest) -> None:
+    """Starts FreeCAD before anything else if a test asks for it."""
+    if any("freecad" in getattr(item, "fixturenames", ()) for item in request.session.items):
+        request.getfixturevalue("freecad")
 
 
 class Library:

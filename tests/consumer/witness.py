@@ -1,7 +1,9 @@
-"""Outside programs that look at many STEP files in one process of their own.
+"""Outside programs that look at STEP files in processes of their own, beside the other tests.
 
-Each writes one JSON line a file as soon as it is done with it, so that a crash is blamed on the file that it
-happened on, and the files before it keep their findings.
+Great files have a process each, since FreeCAD's check takes minutes on a blade with a hundred holes; small
+ones share a process a core. Each writes one JSON line a file as soon as it is done with it: a crash, or a
+process that has run out of time, is blamed on the file that it happened on, and the files before it keep
+their findings.
 """
 
 from __future__ import annotations
@@ -11,28 +13,31 @@ import os
 import shutil
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 
 
+ALONE = 1_000_000  # bytes of a file from which on it has a process of its own
+LIMIT = 900  # seconds for a process: what takes longer is a failure
+
+
 class Findings:
-    def __init__(self, lines: str, output: str):
-        self._by_file = {}
-        for line in lines.splitlines():
-            entry = json.loads(line)
-            self._by_file[entry.pop("file")] = entry
-        self._output = output
+    """What is found, some of it still to come."""
+
+    def __init__(self, coming: dict[Path, Future[tuple[str, str]]]):
+        self._coming = coming
 
     def of(self, step: Path) -> dict:
-        """What was found for this file; a fault of the program itself is an assertion error."""
-        found = self._by_file.get(str(step))
-        if found is None:
-            raise AssertionError(f"no answer for {step.name}; the program said:\n{self._output[-3000:]}")
-        if "error" in found:
-            raise AssertionError(f"{step.name}: {found['error']}")
-        return found
+        """What was found for this file, once it is; a fault of the program itself is an assertion error."""
+        lines, output = self._coming[step].result()
+        for entry in map(json.loads, lines.splitlines()):
+            if entry.pop("file") == str(step):
+                if "error" in entry:
+                    raise AssertionError(f"{step.name}: {entry['error']}")
+                return entry
+        raise AssertionError(f"no answer for {step.name}; the program said:\n{output[-3000:]}")
 
 
 def freecad(steps: list[Path], folder: Path) -> Findings:
@@ -49,15 +54,24 @@ def gmsh(steps: list[Path], folder: Path) -> Findings:
 
 
 def _ask(command: list[str], steps: list[Path], folder: Path) -> Findings:
-    """A process a core; the greatest files are dealt out first."""
-    shares: list[list[Path]] = [[] for _ in range(min(len(steps), os.cpu_count() or 1))]
-    for step in sorted(steps, key=lambda step: step.stat().st_size, reverse=True):
-        min(shares, key=lambda share: sum(s.stat().st_size for s in share)).append(step)
-    with ThreadPoolExecutor() as pool:
-        found = list(
-            pool.map(lambda job: _work(command, job[1], folder / f"share{job[0]}"), enumerate(shares))
-        )
-    return Findings("".join(lines for lines, _ in found), "\n".join(output for _, output in found))
+    """Starts the processes, as many at a time as there are cores, those of the greatest files first."""
+
+    def size(step: Path) -> int:
+        return step.stat().st_size
+
+    ordered = sorted(steps, key=size, reverse=True)
+    cores = os.cpu_count() or 1
+    shared: list[list[Path]] = [[] for _ in range(cores)]
+    for step in (step for step in ordered if size(step) < ALONE):
+        min(shared, key=lambda share: sum(map(size, share))).append(step)
+    shares = [[step] for step in ordered if size(step) >= ALONE] + [share for share in shared if share]
+    pool = ThreadPoolExecutor(cores)
+    coming = {}
+    for number, share in enumerate(shares):
+        answer = pool.submit(_work, command, share, folder / f"share{number}")
+        coming.update(dict.fromkeys(share, answer))
+    pool.shutdown(wait=False)
+    return Findings(coming)
 
 
 def _work(command: list[str], steps: list[Path], folder: Path) -> tuple[str, str]:
@@ -67,15 +81,18 @@ def _work(command: list[str], steps: list[Path], folder: Path) -> tuple[str, str
     jobs.write_text(json.dumps([str(step) for step in steps]), encoding="utf-8")
     answers.touch()
     environment = {"WITNESS_JOBS": str(jobs), "WITNESS_ANSWERS": str(answers), "FREECAD_USER_HOME": str(home)}
-    done = subprocess.run(
-        command,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-        stdin=subprocess.DEVNULL,
-        env={**os.environ, **environment},
-        timeout=1800,
-        check=False,
-    )
-    return answers.read_text(encoding="utf-8"), done.stdout
+    said = folder / "output.txt"
+    with said.open("wb") as output:
+        try:
+            subprocess.run(
+                command,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                stdin=subprocess.DEVNULL,
+                env={**os.environ, **environment},
+                timeout=LIMIT,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            output.write(f"\nended after {LIMIT} s".encode())
+    return answers.read_text(encoding="utf-8"), said.read_text(encoding="utf-8", errors="replace")

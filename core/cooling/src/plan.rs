@@ -8,7 +8,7 @@ pub use inner_bores::{CrossoverRowPlan, DustHolePlan, PinArrayPlan};
 pub use inserts::{InsertPlan, JetArrayPlan};
 pub use turns::{Chain, TurnPlan};
 
-use crate::design::{Chamber, Cooling, FilmRow, HolePlacement, HoleShape, Side, SlotRow};
+use crate::design::{Chamber, Cooling, Cutback, FilmRow, HolePlacement, HoleShape, Side, SlotRow};
 use coolinggen_blade::{Fault, Law, LawSpec, Pointer};
 use std::collections::HashSet;
 
@@ -37,8 +37,11 @@ pub struct Plan {
     pub pin_arrays: Vec<PinArrayPlan>,
     /// Dust holes.
     pub dust_holes: Vec<DustHolePlan>,
-    /// Least metal between neighbouring holes, and least passage between neighbouring pins, mm.
+    /// Least metal between neighbouring holes, between slots and beside them, and least passage between neighbouring pins,
+    /// mm.
     pub least_ligament: f64,
+    /// How far the coolant goes on before its inlets at the hub, mm.
+    pub inlet_extension: Option<f64>,
 }
 
 /// Shell thickness, mm.
@@ -153,6 +156,8 @@ pub struct SlotRowPlan {
     pub width: f64,
     /// Millimetres.
     pub corner_radius: f64,
+    /// How the pressure side is cut back, if it is.
+    pub cutback: Option<Cutback>,
 }
 
 /// How many holes a row has.
@@ -259,6 +264,7 @@ impl Maker {
             pin_arrays: self.pin_arrays(cooling, &root.at("pin_arrays")),
             dust_holes: self.dust_holes(cooling, &root.at("dust_holes")),
             least_ligament: cooling.least_ligament,
+            inlet_extension: cooling.inlet_extension,
         }
     }
 
@@ -283,6 +289,7 @@ impl Maker {
             height: row.height,
             width: row.width,
             corner_radius: row.corner_radius,
+            cutback: row.cutback,
         })
     }
 

@@ -19,6 +19,11 @@ fn rotor_with(field: &str, rows: Value) -> Result<Generated, Vec<Fault>> {
     generate(&Design::from_json(&design.to_string())?, Path::new("."))
 }
 
+fn built(design: &Value) -> Generated {
+    let design = Design::from_json(&design.to_string()).unwrap_or_else(|f| panic!("{f:?}"));
+    generate(&design, Path::new(".")).unwrap_or_else(|f| panic!("{f:?}"))
+}
+
 fn row(name: &str, side: &str, position: f64, count: u32, hole: Value) -> Value {
     json!({
         "name": name, "side": side, "surface_position": position, "span": [0.15, 0.88], "count": count, "hole": hole
@@ -157,28 +162,171 @@ fn slots_that_do_not_fit_are_refused() {
 /// chamber's end between them.
 #[test]
 fn a_serpentine_with_a_hundred_holes_and_slots() {
-    let mut design = sample("rotor-serpentine.json");
-    let head = |name: &str, side: &str, distance: f64, stagger: f64| {
-        json!({
-            "name": name, "side": side, "surface_distance": distance, "span": [0.1, 0.8], "count": 22,
-            "stagger": stagger, "chamber": "leading", "hole": round(0.5, 35.0, 90.0)
-        })
-    };
-    design["cooling"]["film_rows"] = json!([
-        head("head_pressure", "pressure_side", 4.2, 0.25),
-        head("head", "pressure_side", 2.4, -0.25),
-        head("head_suction", "suction_side", 0.6, 0.25),
-        row("pressure", "pressure_side", 0.42, 22, round(0.5, 35.0, 0.0)),
-        row("suction", "suction_side", 0.4, 20, shaped(0.4, 2.5)),
-    ]);
-    design["cooling"]["slot_rows"] = slots(12, 2.0, 0.45);
-    design["cooling"]["slot_rows"][0]["span"] = json!([0.16, 0.9]);
-    let design = Design::from_json(&design.to_string()).unwrap();
-    let generated = generate(&design, Path::new(".")).unwrap_or_else(|f| panic!("{f:?}"));
+    let generated = built(&sample("rotor-serpentine.json"));
     check(&generated, 108);
     // Open at the hub, closed at the other end: every bore makes a handle.
     assert_eq!(generated.report.genus["metal"].found, Some(108 + 12));
     assert_eq!(generated.report.genus["coolant/leading"].found, Some(0));
+}
+
+/// The serpentine's rows with smaller holes, nearer to each other, and more of them.
+#[test]
+fn a_serpentine_with_four_hundred_holes() {
+    let mut design = sample("rotor-serpentine.json");
+    let rows = design["cooling"]["film_rows"].as_array_mut().unwrap();
+    for row in rows.iter_mut() {
+        row["count"] = json!(50);
+        row["hole"]["diameter"] = json!(0.25);
+        if row["hole"]["shape"].is_object() {
+            row["hole"]["shape"]["metering_length_d"] = json!(6.5);
+        }
+    }
+    for (name, position) in [("pressure_2", 0.5), ("pressure_3", 0.58), ("pressure_4", 0.66)] {
+        rows.push(row(name, "pressure_side", position, 50, round(0.25, 35.0, 0.0)));
+    }
+    let generated = built(&design);
+    check(&generated, 400);
+    assert_eq!(generated.report.genus["metal"].found, Some(400 + 12));
+    assert_eq!(generated.report.genus["coolant/leading"].found, Some(0));
+}
+
+#[test]
+fn rows_by_camber_position_single_holes_and_laws_along_a_row() {
+    let mut camber = row("camber", "suction_side", 0.0, 6, round(0.4, 40.0, 0.0));
+    camber.as_object_mut().unwrap().remove("surface_position");
+    camber["camber_position"] = json!(0.45);
+    camber["hole"]["diameter"] = json!([[0, 0.3], [1, 0.5]]);
+    camber["hole"]["inclination_deg"] = json!([[0, 30], [1, 50]]);
+    camber["hole"]["compound_deg"] = json!([[0, -20], [1, 20]]);
+    let mut single = row("single", "pressure_side", 0.4, 1, round(0.5, 60.0, 0.0));
+    single["span"] = json!([0.5, 0.5]);
+    let generated = rotor(json!([camber, single])).unwrap_or_else(|f| panic!("{f:?}"));
+    check(&generated, 7);
+    let holes = &generated.report.holes;
+    for (i, hole) in holes[..6].iter().enumerate() {
+        // In the middle of its sixth of the span from 0.15 to 0.88.
+        let v = 0.15 + (0.88 - 0.15) * (i as f64 + 0.5) / 6.0;
+        for (found, [from, to]) in [
+            (hole.diameter_mm, [0.3, 0.5]),
+            (hole.inclination_deg, [30.0, 50.0]),
+            (hole.compound_deg, [-20.0, 20.0]),
+        ] {
+            assert!((found - (from + (to - from) * v)).abs() < 1e-12, "hole {i}: {found}");
+        }
+    }
+    let lone = &holes[6];
+    assert!(lone.coverage.is_none());
+    let at = glam::DVec3::from_array(lone.position_mm);
+    let design = Design::from_json(&sample("rotor.json").to_string()).unwrap();
+    let (space, _) = coolinggen_blade::build(&design.space, &design.blade, Path::new(".")).unwrap();
+    assert!((space.span_fraction(at).unwrap() - 0.5).abs() < 1e-6);
+}
+
+/// The rotor's trailing slots with the pressure side cut back.
+fn cutback(lip: f64, width: f64) -> Value {
+    let mut rows = slots(9, 2.0, width);
+    rows[0]["cutback"] = json!({ "lip_thickness": lip });
+    rows
+}
+
+#[test]
+fn the_pressure_side_cut_back() {
+    let generated = rotor_with("slot_rows", cutback(0.45, 0.4)).unwrap_or_else(|f| panic!("{f:?}"));
+    check(&generated, 0);
+    assert_eq!(generated.report.genus["metal"].found, Some(9));
+    let model = &generated.blade.model;
+    let [straight, open] = [slots(9, 2.0, 0.4), cutback(0.45, 0.4)]
+        .map(|rows| rotor_with("slot_rows", rows).unwrap_or_else(|f| panic!("{f:?}")).report);
+    for (slot, before) in open.slots.iter().zip(&straight.slots) {
+        let length = slot.open_length_mm.unwrap();
+        assert!(length > 0.5 && length < slot.length_mm, "{length}");
+        // Open over the slot's height and the open part's length, which the lip's slope shortens.
+        assert!(slot.breakout_mm2 > 0.6 * length * 2.0 && slot.breakout_mm2 < 1.1 * (length + 0.4) * 2.0);
+        assert!(slot.breakout_mm2 > 3.0 * before.breakout_mm2);
+        // As far as the lip the wall is no thinner than there.
+        let [suction, pressure] = slot.side_walls_mm.map(Option::unwrap);
+        assert!(pressure > 0.3 && pressure <= 0.45 + 1e-6, "{pressure}");
+        assert!(suction > 0.0);
+    }
+    // Each slot opens on the pressure side and at the trailing edge.
+    let exits = model.faces.iter().filter(|f| f.name.starts_with("slot/te/001/exit")).count();
+    assert_eq!(exits, 2);
+    assert!(generated.report.to_text().contains("slot row"));
+}
+
+#[test]
+fn slots_beside_thin_sides_are_refused_with_what_fits() {
+    let refused = |rows: Value, least: f64| {
+        let mut design = sample("rotor.json");
+        design["cooling"]["slot_rows"] = rows;
+        design["cooling"]["least_ligament"] = json!(least);
+        let faults = generate(&Design::from_json(&design.to_string()).unwrap(), Path::new("."))
+            .map(|_| ())
+            .expect_err("refused");
+        faults[0].clone()
+    };
+    let fault = refused(slots(1, 2.0, 0.4), 0.5);
+    assert_eq!(
+        (fault.pointer.as_str(), fault.code),
+        ("/cooling/slot_rows/0/width", "side_wall"),
+        "{fault:?}"
+    );
+    let width = fault.max.unwrap();
+    assert!(width < 0.4);
+    if width > 0.25 {
+        rotor_with("slot_rows", slots(1, 2.0, width - 1e-6)).unwrap_or_else(|f| panic!("{f:?}"));
+    }
+    let fault = refused(slots(1, 2.0, 2.5), 0.0);
+    assert_eq!(
+        (fault.pointer.as_str(), fault.code),
+        ("/cooling/slot_rows/0/width", "meets_wall"),
+        "{fault:?}"
+    );
+    assert!(fault.max.unwrap() < 2.5);
+    for (lip, over) in [(9.0, true), (0.02, false)] {
+        let fault = refused(cutback(lip, 0.3), 0.0);
+        assert_eq!(fault.pointer, "/cooling/slot_rows/0/cutback/lip_thickness");
+        assert_eq!((fault.max.is_some(), fault.min.is_some()), (over, !over), "{fault:?}");
+    }
+}
+
+/// The coolant goes on straight below the hub; the metal stays what it is.
+#[test]
+fn inlets_go_on_below_the_hub() {
+    for (name, inlets) in [("rotor-serpentine.json", 1), ("rotor.json", 2), ("c3x-film.json", 7)] {
+        let mut design = sample(name);
+        let before = built(&design).report;
+        design["cooling"]["inlet_extension"] = json!(12.0);
+        let generated = built(&design);
+        let report = &generated.report;
+        assert!(report.watertight);
+        for (solid, genus) in &report.genus {
+            assert_eq!(genus.found, Some(genus.expected), "{solid}");
+        }
+        let metal = |report: &coolinggen_cooling::report::Report| report.solids["metal"].volume_mm3;
+        assert_eq!(metal(report), metal(&before), "{name}");
+        let mut extended = 0;
+        for face in before.faces.iter().filter(|f| f.name.starts_with("coolant/inlet/")) {
+            let solid = &face.solids[0];
+            let added = report.solids[solid].volume_mm3 - before.solids[solid].volume_mm3;
+            // A cylinder on the inlet's area, as its projection along the hub's normal in its middle: the inlet is
+            // nearly flat.
+            assert!((added / (12.0 * face.area_mm2) - 1.0).abs() < 0.01, "{name} {solid}: {added}");
+            let walls = format!("{}/inlet_extension/", face.name);
+            assert!(
+                report.faces.iter().filter(|f| f.name.starts_with(&walls)).count() >= 2,
+                "{name} {solid}"
+            );
+            extended += 1;
+        }
+        assert_eq!(extended, inlets, "{name}");
+    }
+    let mut shallow = sample("rotor.json");
+    shallow["cooling"]["inlet_extension"] = json!(0.01);
+    let faults = generate(&Design::from_json(&shallow.to_string()).unwrap(), Path::new(".")).map(|_| ());
+    let fault = &faults.expect_err("refused")[0];
+    assert_eq!(fault.pointer, "/cooling/inlet_extension");
+    assert!(fault.min.unwrap() > 0.01);
 }
 
 /// Film holes need no chambers: here they are fed by a radial hole of the C3X vane.

@@ -11,9 +11,18 @@ use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-fn serpentine() -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples/rotor-serpentine.json");
+fn sample(name: &str) -> Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples").join(name);
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// The sample without its holes and slots.
+fn serpentine() -> Value {
+    let mut design = sample("rotor-serpentine.json");
+    let cooling = design["cooling"].as_object_mut().unwrap();
+    cooling.remove("film_rows");
+    cooling.remove("slot_rows");
+    design
 }
 
 fn tried(design: &Value) -> Result<Generated, Vec<Fault>> {
@@ -27,12 +36,17 @@ fn built(design: &Value) -> Generated {
 /// The serpentine with other chambers: walls at `positions`, turns in turn at the tip and at the hub.
 fn chain(positions: &[f64], exponent: f64) -> Value {
     let mut design = serpentine();
-    let cooling = &mut design["cooling"];
+    set_chain(&mut design["cooling"], positions, exponent, 0.9, [0.5, 0.4]);
+    design
+}
+
+/// Walls, chambers and turns of a serpentine; the radii are those of all chambers but the last, and of the last.
+fn set_chain(cooling: &mut Value, positions: &[f64], exponent: f64, thickness: f64, radii: [f64; 2]) {
     let count = positions.len() + 1;
     cooling["walls"] = (positions.iter().enumerate())
-        .map(|(i, p)| json!({"name": format!("w{i}"), "position": p, "thickness": 0.9}))
+        .map(|(i, p)| json!({"name": format!("w{i}"), "position": p, "thickness": thickness}))
         .collect();
-    let radius = |i: usize| if i + 1 == count { 0.4 } else { 0.5 };
+    let radius = |i: usize| radii[usize::from(i + 1 == count)];
     cooling["chambers"] =
         (0..count).map(|i| json!({"name": format!("c{i}"), "fillet_radius": radius(i)})).collect();
     cooling["turns"] = (1..count)
@@ -41,6 +55,18 @@ fn chain(positions: &[f64], exponent: f64) -> Value {
             json!({"name": format!("t{i}"), "between": between, "end": end, "exponent": exponent})
         })
         .collect();
+}
+
+/// The C3X vane, a linear cascade, with a serpentine behind its leading chamber that begins at the hub.
+fn vane(positions: &[f64]) -> Value {
+    let mut design = sample("c3x.json");
+    design["cooling"] = json!({"shell": {"suction_side": 3, "pressure_side": 3, "tip": 4, "hub": 4}});
+    set_chain(&mut design["cooling"], positions, 2.5, 2.5, [1.5, 1.2]);
+    let turns = design["cooling"]["turns"].as_array_mut().unwrap();
+    turns.remove(0);
+    for (i, turn) in turns.iter_mut().enumerate() {
+        turn["end"] = json!(["tip", "hub"][i % 2]);
+    }
     design
 }
 
@@ -235,13 +261,14 @@ fn the_flow_area_runs_through_and_the_automatic_clearance_keeps_it() {
 }
 
 #[test]
-fn serpentines_of_two_to_six_passages_and_several_in_one_blade() {
+fn serpentines_of_two_to_seven_passages_and_several_in_one_blade() {
     for positions in [
         &[0.5][..],
         &[0.3, 0.6],
         &[0.25, 0.45, 0.65],
         &[0.2, 0.36, 0.52, 0.68],
         &[0.16, 0.29, 0.42, 0.55, 0.68],
+        &[0.15, 0.26, 0.37, 0.48, 0.59, 0.7],
     ] {
         let generated = built(&chain(positions, 2.5));
         check_solids(&generated);
@@ -261,6 +288,30 @@ fn serpentines_of_two_to_six_passages_and_several_in_one_blade() {
     assert_eq!(names, ["coolant/c0", "coolant/c2", "coolant/c3", "metal"]);
     for name in ["coolant/inlet/c0", "coolant/outlet/c1", "coolant/inlet/c2", "coolant/outlet/c4"] {
         face(&generated.blade.model, name);
+    }
+}
+
+#[test]
+fn serpentines_of_two_to_seven_passages_in_a_linear_cascade() {
+    for positions in [
+        &[0.3, 0.5][..],
+        &[0.25, 0.4, 0.55],
+        &[0.2, 0.32, 0.44, 0.56],
+        &[0.2, 0.3, 0.4, 0.5, 0.6],
+        &[0.15, 0.24, 0.33, 0.42, 0.51, 0.6],
+        &[0.12, 0.2, 0.28, 0.36, 0.44, 0.52, 0.6],
+    ] {
+        let generated = built(&vane(positions));
+        check_solids(&generated);
+        let names: Vec<&str> = generated.report.solids.keys().map(String::as_str).collect();
+        assert_eq!(names, ["coolant/c0", "coolant/c1", "metal"]);
+        // A serpentine of an even number of chambers begins and ends at the hub.
+        assert_eq!(generated.report.genus["metal"].found, Some(1 - positions.len() % 2), "{positions:?}");
+        let found = creases(&generated.blade.model);
+        let joints = found.iter().filter(|((a, b), _)| a.starts_with("chamber/") && b.starts_with("turn/"));
+        for ((a, b), angle) in joints {
+            assert!(*angle < 1e-3, "{positions:?} {a} | {b}: {angle} deg");
+        }
     }
 }
 

@@ -5,6 +5,7 @@ pub(crate) const TEMPLATES: &[(&str, &str)] = &[
     ("rotor", include_str!("../../../samples/rotor.json")),
     ("rotor-serpentine", include_str!("../../../samples/rotor-serpentine.json")),
     ("c3x", include_str!("../../../samples/c3x.json")),
+    ("c3x-film", include_str!("../../../samples/c3x-film.json")),
     ("pritchard", include_str!("../../../samples/pritchard.json")),
     ("surface", include_str!("../../../samples/surface.json")),
     ("francis", include_str!("../../../samples/francis.json")),

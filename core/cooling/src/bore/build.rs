@@ -134,7 +134,7 @@ impl Drill {
             Path::Arc { sweep, .. } => {
                 (14.0 * sweep.abs() * (piece.to - piece.from) / 1.57).ceil().max(4.0) as usize
             }
-            Path::Line { .. } | Path::Point(_) => 4,
+            Path::Line { .. } | Path::Fan { .. } | Path::Point(_) => 4,
         };
         let last = shape.sections.len() - 1;
         for (side, section) in [(0, 0), (1, last)] {
@@ -143,9 +143,7 @@ impl Drill {
             }
             let rays = |t: f64| ray(shape, section, piece.path, t);
             let leg = leg_of(&end_legs[side][piece.path], piece);
-            let range = (piece.from, piece.to);
-            let stretch =
-                Stretch { target: targets[side], face: leg.face, rays: &rays, range, start: leg.start };
+            let stretch = stretch(shape, piece, targets[side], leg, &rays);
             spans = stretch.spans_needed(&mut self.interpolators, spans)?;
         }
         Ok(spans)
@@ -166,8 +164,7 @@ impl Drill {
         }
         let rays = |t: f64| ray(shape, section, piece.path, t);
         let leg = leg_of(&end_legs[side][piece.path], piece);
-        let range = (piece.from, piece.to);
-        let stretch = Stretch { target: targets[side], face: leg.face, rays: &rays, range, start: leg.start };
+        let stretch = stretch(shape, piece, targets[side], leg, &rays);
         Ok(Some((leg.face, stretch.traced(&mut self.interpolators, spans)?)))
     }
 
@@ -184,10 +181,10 @@ impl Drill {
         if path.is_point() {
             return Ok(None);
         }
-        let length = piece.to - piece.from;
-        let at = |k: usize| path.evaluate(piece.from + length * k as f64 / spans as f64);
+        let (grading, range) = (path.grading(), (piece.from, piece.to));
+        let at = |k: usize| path.evaluate(grading.at(range, k, spans));
         let points: Vec<DVec3> = (0..=spans).map(|k| shape.frame.point(at(k).0, section.z)).collect();
-        let slope = |k: usize| shape.frame.vector(at(k).1) * length;
+        let slope = |k: usize| shape.frame.vector(at(k).1) * grading.end_speed(range);
         Ok(Some(self.interpolators.of(spans)?.curve_with_slopes(&points, slope(0), slope(spans))?))
     }
 }
@@ -204,6 +201,18 @@ fn rim(traces: &[Option<(FaceId, Trace)>]) -> Rim {
     faces.sort();
     faces.dedup();
     Rim::new(faces, points.collect())
+}
+
+/// What is to be traced of a piece on its leg.
+fn stretch<'a>(
+    shape: &BoreShape,
+    piece: &Piece,
+    target: Target<'a>,
+    leg: &Leg,
+    rays: &'a dyn Fn(f64) -> Ray,
+) -> Stretch<'a> {
+    let (range, grading) = ((piece.from, piece.to), shape.sections[0].paths[piece.path].grading());
+    Stretch { target, face: leg.face, rays, range, grading, start: leg.start }
 }
 
 /// The line of a path at `t` that ends at the first section or at the last one.

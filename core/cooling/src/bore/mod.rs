@@ -16,7 +16,7 @@ mod target;
 pub(crate) use build::{BoreNames, Bored, Drill};
 pub(crate) use ligament::{Hull, neighbours};
 pub(crate) use rims::{Rim, Rims};
-pub(crate) use shape::{BoreShape, Frame, circle, racetrack, rounded_rectangle, stretched_circle};
+pub(crate) use shape::{BoreShape, Frame, circle, fanned, racetrack, rounded_rectangle, stretched_circle};
 pub(crate) use target::Mouth;
 
 use std::fmt;

@@ -1,6 +1,7 @@
 //! Rings: cubics through the hits of a path, as exact as the checks of other programs ask.
 
 use super::BoreError;
+use super::shape::Grading;
 use super::target::{Hit, Ray, Target};
 use coolinggen_brep::FaceId;
 use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve, ParametricSurface};
@@ -43,6 +44,7 @@ pub(super) struct Stretch<'a> {
     pub(super) face: FaceId,
     pub(super) rays: &'a dyn Fn(f64) -> Ray,
     pub(super) range: (f64, f64),
+    pub(super) grading: Grading,
     /// Parameters and multiple of the ray at its start.
     pub(super) start: (DVec2, f64),
 }
@@ -50,11 +52,10 @@ pub(super) struct Stretch<'a> {
 impl Stretch<'_> {
     /// The trace in `spans` spans, and how far it is off relative to the tolerance.
     fn trace(&self, interpolators: &mut Interpolators, spans: usize) -> Result<(Trace, f64), BoreError> {
-        let (from, to) = self.range;
         let mut hits: Vec<Hit> = Vec::with_capacity(spans + 1);
         let (mut near, mut along) = self.start;
         for k in 0..=spans {
-            let t = from + (to - from) * k as f64 / spans as f64;
+            let t = self.grading.at(self.range, k, spans);
             let hit = self.target.meet(self.face, &(self.rays)(t), near, along).ok_or(BoreError::Misses)?;
             (near, along) = (hit.at, hit.along);
             hits.push(hit);
@@ -62,7 +63,7 @@ impl Stretch<'_> {
         let points: Vec<DVec3> = hits.iter().map(|h| h.point).collect();
         let parameters: Vec<DVec2> = hits.iter().map(|h| h.at).collect();
         let (first, last) = (&hits[0], &hits[spans]);
-        let scale = to - from;
+        let scale = self.grading.end_speed(self.range);
         let interpolator = interpolators.of(spans)?;
         let curve = interpolator.curve_with_slopes(&points, first.slope * scale, last.slope * scale)?;
         let pcurve =
@@ -85,7 +86,15 @@ impl Stretch<'_> {
     ) -> Result<usize, BoreError> {
         let mut spans = least;
         loop {
-            let (_, ratio) = self.trace(interpolators, spans)?;
+            let ratio = match self.trace(interpolators, spans) {
+                Ok((_, ratio)) => ratio,
+                // Hits that lie far from each other are not found one from the other.
+                Err(BoreError::Misses) if 2 * spans <= MOST_SPANS => {
+                    spans *= 2;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
             if ratio <= 1.0 {
                 return Ok(spans);
             }

@@ -38,6 +38,9 @@ pub(crate) enum Path {
     Arc { center: DVec2, radius: f64, start: f64, sweep: f64 },
     /// A straight line.
     Line { from: DVec2, to: DVec2 },
+    /// A straight line run through unevenly: it begins slowly for a `pace` above 1, and ends slowly for one below.
+    /// For lines of a bore that fan out, so that their hits on a surface at a flat angle are evenly spaced.
+    Fan { from: DVec2, to: DVec2, pace: f64 },
     /// A piece that has no length in this section.
     Point(DVec2),
 }
@@ -51,12 +54,57 @@ impl Path {
                 (center + direction * radius, direction.perp() * (radius * sweep))
             }
             Self::Line { from, to } => (from + (to - from) * t, to - from),
+            Self::Fan { from, to, pace } => {
+                let below = t + pace * (1.0 - t);
+                (from + (to - from) * (t / below), (to - from) * (pace / (below * below)))
+            }
             Self::Point(p) => (p, DVec2::ZERO),
+        }
+    }
+
+    /// How the nodes of its pieces are spread.
+    pub(super) fn grading(&self) -> Grading {
+        match self {
+            Self::Fan { .. } => Grading::TowardsEnds,
+            Self::Arc { .. } | Self::Line { .. } | Self::Point(_) => Grading::Even,
         }
     }
 
     pub(crate) fn is_point(&self) -> bool {
         matches!(self, Self::Point(_))
+    }
+}
+
+/// How nodes are spread over a piece of a path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Grading {
+    Even,
+    /// Twenty times as dense at both ends as evenly: for hits that run off at a flat angle there.
+    TowardsEnds,
+}
+
+impl Grading {
+    /// Speed at the ends relative to an even spread.
+    const END_SPEED: f64 = 0.05;
+
+    /// The parameter of the path at node `k` of `spans` between `from` and `to`.
+    pub(super) fn at(self, (from, to): (f64, f64), k: usize, spans: usize) -> f64 {
+        match self {
+            Self::Even => from + (to - from) * k as f64 / spans as f64,
+            Self::TowardsEnds => {
+                let part = k as f64 / spans as f64;
+                let wave = (2.0 * PI * part).sin() / (2.0 * PI);
+                from + (to - from) * (part - (1.0 - Self::END_SPEED) * wave)
+            }
+        }
+    }
+
+    /// Derivative of the path's parameter at both ends in that of the piece, which runs over [0, 1].
+    pub(super) fn end_speed(self, (from, to): (f64, f64)) -> f64 {
+        match self {
+            Self::Even => to - from,
+            Self::TowardsEnds => (to - from) * Self::END_SPEED,
+        }
     }
 }
 
@@ -124,6 +172,16 @@ pub(crate) fn racetrack(z: f64, radius: f64, height_d: f64) -> BoreSection {
     }
     let half = DVec2::new(radius, radius * height_d);
     rounded_rectangle(z, -half, half, radius)
+}
+
+/// The section with its sides across y run through at a pace, slower by `pace` at high x than at low x.
+pub(crate) fn fanned(mut section: BoreSection, pace: f64) -> BoreSection {
+    for (k, pace) in [(1, pace), (5, 1.0 / pace)] {
+        if let Path::Line { from, to } = section.paths[k] {
+            section.paths[k] = Path::Fan { from, to, pace };
+        }
+    }
+    section
 }
 
 /// A circle in the eight paths of a rounded rectangle: its quarters, and a point where each side will open.

@@ -121,7 +121,9 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         Some(grid) => add_bores(&mut blank, (blade, space, grid), stack.as_ref(), plan)?,
         None => Bores::default(),
     };
-    let caps = add_caps(blank.model, space, &ends, &outer.rings, blank.passages, blank.inserts)?;
+    let rings = &outer.rings;
+    let caps =
+        add_caps(blank.model, space, &ends, rings, blank.passages, blank.inserts, plan.inlet_extension)?;
     if let Some(stack) = &stack {
         bores.dust_holes = add_dust_holes(&mut blank, stack, plan, &caps)?;
     }
@@ -179,7 +181,8 @@ fn add_bores(
         bores.film_holes = add_film_rows(blank, &Sides::new(blade, grid, sections), &plan.film_rows)?;
     }
     if let Some(stack) = stack {
-        bores.slots = add_slot_rows(blank, &stack.sections, &stack.tails(), &plan.slot_rows)?;
+        bores.slots =
+            add_slot_rows(blank, &stack.sections, &stack.tails(), &plan.slot_rows, plan.least_ligament)?;
         bores.crossovers = add_crossover_rows(blank, plan)?;
         bores.pins = add_pin_arrays(blank, stack, plan)?;
     }

@@ -6,8 +6,8 @@ use super::ligaments::Ligaments;
 use super::passages::{Branch, Host, Link, Passage, PassagePart};
 use super::style;
 use crate::bore::{BoreError, BoreNames, BoreShape, Bored, Drill, Mouth, Rim, Rims};
-use coolinggen_blade::StreamSurface;
-use coolinggen_brep::{CastHit, Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
+use coolinggen_blade::{Region, StreamSurface};
+use coolinggen_brep::{CastHit, Caster, Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
 use coolinggen_nurbs::{NurbsError, ParametricCurve, ParametricSurface, Surface};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
@@ -228,6 +228,16 @@ impl Blank<'_> {
     pub(super) fn leaves(&self, passage: usize, hit: &CastHit, direction: DVec3) -> bool {
         let (_, u, v) = self.model.face(hit.face).surface.first_derivatives(hit.at.x, hit.at.y);
         (u.cross(v).dot(direction) > 0.0) == self.passages[passage].outward
+    }
+
+    /// What lines meet of one region of the outer surface, as it was before any bore.
+    pub(super) fn outer_caster(&self, region: Region) -> Caster {
+        let path = format!("blade/{}", region.name());
+        let own = |face: &&FaceId| {
+            let rest = self.model.face(**face).name.strip_prefix(&path);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        Caster::new(self.model, self.outer.iter().filter(own).copied())
     }
 
     /// The outer face that a point of the blade's surface lies on, with u in [0, 1].

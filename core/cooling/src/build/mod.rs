@@ -13,6 +13,7 @@ mod dust_holes;
 mod error;
 mod film;
 mod fit;
+mod inlet;
 mod inserts;
 mod ligaments;
 mod nodes;

@@ -2,11 +2,13 @@
 
 use super::cap::{Ring, add_cap, points_up};
 use super::error::BuildError;
+use super::inlet::add_extension;
 use super::inserts::Insert;
 use super::passages::{Host, Link, Passage, PassageEnd};
 use super::style;
-use coolinggen_blade::{StreamSpace, StreamSurface};
+use coolinggen_blade::{Fault, StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
+use coolinggen_nurbs::NurbsError;
 
 /// The face that ends a passage.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +35,8 @@ pub(super) struct InsertCaps {
 pub(super) struct Caps {
     /// Of every passage.
     pub(super) passages: Vec<[Cap; 2]>,
+    /// Walls of the inlets' extensions, a list a passage.
+    extensions: Vec<Vec<FaceUse>>,
     /// Of every insert.
     inserts: Vec<InsertCaps>,
     /// Hub and tip face as the metal uses them; the hub's alone where the blade ends in a point.
@@ -52,7 +56,8 @@ impl Caps {
     }
 }
 
-/// Adds the faces that end the passages, and hub and tip with their openings; `rings` are the outer surface's ends.
+/// Adds the faces that end the passages, and hub and tip with their openings; `rings` are the outer surface's ends. Inlets
+/// at the hub go on for `inlet_extension` mm.
 pub(super) fn add_caps(
     model: &mut Model,
     space: &StreamSpace,
@@ -60,10 +65,12 @@ pub(super) fn add_caps(
     rings: &[Ring; 2],
     passages: &[Passage],
     inserts: &[Insert],
+    inlet_extension: Option<f64>,
 ) -> Result<Caps, BuildError> {
     let mut openings: [Vec<Ring>; 2] = [Vec::new(), Vec::new()];
     let mut caps = Vec::with_capacity(passages.len());
-    for passage in passages {
+    let mut extensions = vec![Vec::new(); passages.len()];
+    for (passage, extension) in passages.iter().zip(&mut extensions) {
         let both_open = passage.ends.iter().all(PassageEnd::is_open);
         let one_side = passage.ends[0].side == passage.ends[1].side;
         let mut own = Vec::with_capacity(2);
@@ -85,13 +92,27 @@ pub(super) fn add_caps(
                 (false, _, 0) => (format!("{}/hub_end", end.path), end.style.clone()),
                 (false, _, _) => (format!("{}/tip_end", end.path), end.style.clone()),
             };
-            let face = add_cap(model, name, style, stream, &end.ring, end.inserted.as_slice())?;
-            let forward = points_up(model, face, stream) == (side == 1);
             let in_metal = passage.host == Host::Metal;
+            let used = match inlet_extension {
+                Some(length) if open && enters && side == 0 => {
+                    if end.inserted.is_some() || !in_metal {
+                        return Err(no_extension(&end.name));
+                    }
+                    let mut faces = add_extension(model, &name, stream, &end.ring, length)?;
+                    let closing = faces.pop();
+                    *extension = faces;
+                    closing
+                        .ok_or(NurbsError::NotFound { what: "the face that closes an inlet's extension" })?
+                }
+                _ => {
+                    let face = add_cap(model, name, style, stream, &end.ring, end.inserted.as_slice())?;
+                    FaceUse { face, forward: points_up(model, face, stream) == (side == 1) }
+                }
+            };
             if open && in_metal {
                 openings[side].push(end.ring.clone());
             }
-            own.push(Cap { used: FaceUse { face, forward }, open, side, in_metal });
+            own.push(Cap { used, open, side, in_metal });
         }
         caps.push([own[0], own[1]]);
     }
@@ -112,7 +133,15 @@ pub(super) fn add_caps(
         let forward = points_up(model, face, stream) == (side == 1);
         end_faces.push(FaceUse { face, forward });
     }
-    Ok(Caps { passages: caps, inserts: insert_caps, ends: end_faces })
+    Ok(Caps { passages: caps, extensions, inserts: insert_caps, ends: end_faces })
+}
+
+/// Why an inlet in which an insert stands is not extended.
+fn no_extension(chamber: &str) -> BuildError {
+    let message =
+        format!("an insert stands in the inlet of chamber \"{chamber}\": gap and plenum have no one duct");
+    let fault = Fault::new("/cooling/inlet_extension", "geometry", message);
+    BuildError::Refused(vec![fault.hint("an insert that opens at the tip, or no extension")])
 }
 
 fn add_insert_caps(
@@ -284,6 +313,7 @@ impl SolidParts<'_> {
             let own = passage.faces.iter();
             let own = own.map(|&face| FaceUse { face, forward: passage.outward });
             wet.shell(passage.host).faces.extend(own);
+            wet.openings.extend(&self.caps.extensions[k]);
             for cap in &self.caps.passages[k] {
                 if cap.open {
                     wet.openings.push(cap.used);

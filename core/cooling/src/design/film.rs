@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// A row of film holes.
 ///
 /// Where the row runs is said by one of `surface_position`, `surface_distance` and `camber_position`; how many holes it
-/// has by one of `count` and `pitch`.
+/// has by one of `count` and `pitch`. A single hole is a row with a count of 1 whose span begins and ends at one fraction.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FilmRow {

@@ -24,7 +24,7 @@ pub use inserts::{Insert, InsertSide, JetArray};
 pub use pins::PinArray;
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, faults_against, schema_faults};
-pub use slots::SlotRow;
+pub use slots::{Cutback, SlotRow};
 pub use turns::{Automatic, Clearance, SpanEnd, Turn};
 
 use crate::plan::Plan;
@@ -105,10 +105,16 @@ pub struct Cooling {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
     pub dust_holes: Vec<DustHole>,
-    /// Least metal between neighbouring holes, and least passage between neighbouring pins, mm; less is refused.
+    /// Least metal between neighbouring holes, between neighbouring slots, and between a slot and the blade's sides, and
+    /// least passage between neighbouring pins, mm; less is refused.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "mm"))]
     pub least_ligament: f64,
+    /// Length by which the coolant goes on straight before its inlets at the hub, along the hub's normal in the middle of
+    /// each inlet to a plane across it, mm: room for a flow solver's inlet. The metal is as without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.01, max = 10_000.0), extend("unit" = "mm"))]
+    pub inlet_extension: Option<f64>,
 }
 
 /// Greatest size of a design document, bytes.

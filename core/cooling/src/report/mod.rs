@@ -197,6 +197,11 @@ pub struct SlotReport {
     /// Metal to the next slot of the row.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub land_mm: Option<f64>,
+    /// Thinnest metal beside the slot to the suction side, and to the pressure side as far as that reaches.
+    pub side_walls_mm: [Option<f64>; 2],
+    /// Length of the open part behind the lip, where the pressure side is cut back.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub open_length_mm: Option<f64>,
     /// Area of the breakout in the outer surface.
     pub breakout_mm2: f64,
 }
@@ -383,6 +388,8 @@ fn slot_report(slot: &SlotGeometry, integrals: &[FaceIntegrals]) -> SlotReport {
         width_mm: slot.size[1],
         length_mm: slot.length,
         land_mm: slot.land,
+        side_walls_mm: slot.side_walls,
+        open_length_mm: slot.open_length,
         breakout_mm2: slot.exits.iter().map(|f| integrals[f.0].area_mm2).sum(),
     }
 }

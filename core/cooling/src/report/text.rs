@@ -1,6 +1,6 @@
 //! The report as a page of text.
 
-use super::{HoleReport, JetReport, PassageReport, Range, Report, StationReport};
+use super::{HoleReport, JetReport, PassageReport, Range, Report, SlotReport, StationReport};
 use std::fmt::Write;
 
 /// A table of what matters first.
@@ -57,6 +57,7 @@ fn write(report: &Report, out: &mut String) -> std::fmt::Result {
         }
     }
     film_rows(report, out)?;
+    slot_rows(report, out)?;
     inner_bores(report, out)?;
     inserts(report, out)?;
     let fit = &report.blade_fit;
@@ -80,17 +81,15 @@ fn film_rows(report: &Report, out: &mut String) -> std::fmt::Result {
         "\n  {:<16} {:>6} {:>9} {:>7} {:>11} {:>9} {:>12}  fed by",
         "film row", "holes", "d mm", "L/D", "area ratio", "t/P", "ligament mm"
     )?;
-    let row = |hole: &HoleReport| hole.name.rsplit_once('/').map_or(String::new(), |(row, _)| row.to_owned());
-    for holes in report.holes.chunk_by(|a, b| row(a) == row(b)) {
+    for holes in report.holes.chunk_by(|a, b| row(&a.name) == row(&b.name)) {
         let mean = |of: fn(&HoleReport) -> f64| holes.iter().map(of).sum::<f64>() / holes.len() as f64;
-        let optional = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.3}"));
         let ligament = holes.iter().filter_map(|h| h.ligament_mm).min_by(f64::total_cmp);
         let mut fed: Vec<&str> = holes.iter().map(|h| h.passage.as_str()).collect();
         fed.dedup();
         writeln!(
             out,
             "  {:<16} {:>6} {:>9.4} {:>7.2} {:>11.3} {:>9} {:>12}  {}",
-            row(&holes[0]).trim_start_matches("film/"),
+            row(&holes[0].name),
             holes.len(),
             mean(|h| h.diameter_mm),
             mean(|h| h.length_d),
@@ -193,6 +192,55 @@ fn inserts(report: &Report, out: &mut String) -> std::fmt::Result {
         writeln!(out, "  {name:<24} {:>6} {:>9.4} {x:>7} {y:>7} {z:>16}", jets.len(), first.diameter_mm)?;
     }
     Ok(())
+}
+
+/// A line a row of slots.
+fn slot_rows(report: &Report, out: &mut String) -> std::fmt::Result {
+    if report.slots.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "\n  {:<16} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}  fed by",
+        "slot row",
+        "slots",
+        "height mm",
+        "width mm",
+        "length mm",
+        "land mm",
+        "suction",
+        "pressure",
+        "open mm"
+    )?;
+    for slots in report.slots.chunk_by(|a, b| row(&a.name) == row(&b.name)) {
+        let least = |of: &dyn Fn(&SlotReport) -> Option<f64>| {
+            optional(slots.iter().filter_map(of).min_by(f64::total_cmp))
+        };
+        let mean = slots.iter().map(|s| s.length_mm).sum::<f64>() / slots.len() as f64;
+        writeln!(
+            out,
+            "  {:<16} {:>6} {:>9.4} {:>9.4} {mean:>9.3} {:>9} {:>9} {:>9} {:>9}  {}",
+            row(&slots[0].name),
+            slots.len(),
+            slots[0].height_mm,
+            slots[0].width_mm,
+            least(&|s| s.land_mm),
+            least(&|s| s.side_walls_mm[0]),
+            least(&|s| s.side_walls_mm[1]),
+            least(&|s| s.open_length_mm),
+            slots[0].passage
+        )?;
+    }
+    Ok(())
+}
+
+/// The row in a path `film/<row>/<number>`.
+fn row(path: &str) -> &str {
+    path.split('/').nth(1).unwrap_or(path)
+}
+
+fn optional(x: Option<f64>) -> String {
+    x.map_or("-".into(), |x| format!("{x:.3}"))
 }
 
 /// A line for the passage and one for each of its parts: length, range of flow area and of hydraulic diameter.

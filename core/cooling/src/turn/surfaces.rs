@@ -169,3 +169,23 @@ fn deviation_between(
     }
     worst
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use coolinggen_nurbs::Knots;
+
+    /// A strip over x from 0 to 1 whose three rows stand at these y.
+    fn strip(rows: [f64; 3]) -> TurnSurfaces {
+        let points = [0.0, 1.0].into_iter().flat_map(|x| rows.map(|y| DVec3::new(x, y, 0.1 * y * y)));
+        let knots = |breaks: &[f64]| Knots::clamped(1, breaks).unwrap();
+        let surface = Surface::new(knots(&[0.0, 1.0]), knots(&[0.0, 0.5, 1.0]), points.collect()).unwrap();
+        TurnSurfaces { surfaces: vec![surface], deviation: 0.0 }
+    }
+
+    #[test]
+    fn a_face_that_runs_back_over_itself_is_a_fold() {
+        assert_eq!(strip([0.0, 1.0, 2.0]).fold(), None);
+        assert_eq!(strip([0.0, 1.0, 0.4]).fold(), Some(TurnRefusal::Fold { part: PARTS[0] }));
+    }
+}

@@ -1,0 +1,120 @@
+//! Slots: bores of rounded rectangles from the trailing chamber through the trailing edge, straight or with the pressure
+//! side cut back.
+
+mod slot;
+mod walls;
+
+use super::blank::Blank;
+use super::error::BuildError;
+use super::sections::Section;
+use crate::bore::Drill;
+use crate::plan::SlotRowPlan;
+use coolinggen_blade::{Fault, Region};
+use coolinggen_brep::{Caster, FaceId};
+use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve};
+use glam::DVec3;
+use slot::Slot;
+use walls::Surroundings;
+
+/// A slot as built.
+#[derive(Clone, Debug)]
+pub struct SlotGeometry {
+    /// Name of its row.
+    pub row: String,
+    /// Number in the row, from 1 at the hub.
+    pub number: usize,
+    /// The passage that feeds it.
+    pub passage: String,
+    /// Where the axis breaks out, mm.
+    pub exit: DVec3,
+    /// Unit direction of the axis, out of the blade.
+    pub axis: DVec3,
+    /// Height along the span and width across the blade, mm.
+    pub size: [f64; 2],
+    /// Length of the axis in the metal, mm.
+    pub length: f64,
+    /// Metal to the next slot of the row, mm; none for a lone slot.
+    pub land: Option<f64>,
+    /// Thinnest metal beside the slot: to the suction side, and to the pressure side as far as that reaches, mm; none
+    /// where the side ends before the slot begins.
+    pub side_walls: [Option<f64>; 2],
+    /// Length of the open part behind the lip along the axis, mm, if the pressure side is cut back.
+    pub open_length: Option<f64>,
+    /// Faces of the breakout in the outer surface.
+    pub exits: Vec<FaceId>,
+}
+
+/// The middle of the trailing edge and the middle of the trailing chamber's end, over the span.
+struct TrailingEdge {
+    edge: Curve<DVec3>,
+    tail: Curve<DVec3>,
+}
+
+impl TrailingEdge {
+    fn new(sections: &[Section], tails: &[DVec3]) -> Result<Self, BuildError> {
+        let v: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
+        let interpolator = Interpolator::new(3, &v)?;
+        let edge = |s: &Section| {
+            let (start, end) = s.outline.domain();
+            let curve = s.outline.curve();
+            s.stream.to_space(0.5 * (curve.point(start) + curve.point(end)))
+        };
+        let edges: Vec<DVec3> = sections.iter().map(edge).collect();
+        Ok(Self { edge: interpolator.curve(&edges)?, tail: interpolator.curve(tails)? })
+    }
+
+    /// A point near the trailing edge's middle, the direction out of the blade and the one towards the tip.
+    fn frame(&self, v: f64) -> (DVec3, DVec3, DVec3) {
+        let [edge, up, _] = self.edge.derivatives(v);
+        let out = (edge - self.tail.point(v)).normalize();
+        (edge, out, (up - out * up.dot(out)).normalize())
+    }
+}
+
+/// Drills all rows of slots; `tails` are the middles of the trailing chamber's end on each section. Metal between
+/// neighbours and beside them must be `least` mm.
+pub(super) fn add_slot_rows(
+    blank: &mut Blank<'_>,
+    sections: &[Section],
+    tails: &[DVec3],
+    rows: &[SlotRowPlan],
+    least: f64,
+) -> Result<Vec<SlotGeometry>, BuildError> {
+    if rows.is_empty() {
+        return Ok(Vec::new());
+    }
+    let edge = TrailingEdge::new(sections, tails)?;
+    let around = Surroundings {
+        passages: Caster::new(blank.model, blank.passages.iter().flat_map(|p| p.faces.iter().copied())),
+        outer: Caster::new(blank.model, blank.outer.iter().copied()),
+        sides: [Region::SuctionSide, Region::PressureSide].map(|side| blank.outer_caster(side)),
+    };
+    let mut drill = Drill::default();
+    let (mut made, mut faults) = (Vec::new(), Vec::new());
+    for (k, row) in rows.iter().enumerate() {
+        let ends = row.span.map(|v| edge.edge.point(v));
+        let length = ends[0].distance(ends[1]);
+        let count = row.slots.on(length);
+        let land = (count > 1).then(|| length / count as f64 - row.height);
+        let pointer = format!("/cooling/slot_rows/{k}");
+        if let Some(land) = land.filter(|land| !(*land > 0.0 && *land >= least)) {
+            let message = if land > 0.0 {
+                format!("slots of row \"{}\" leave {land:.3} mm between them", row.name)
+            } else {
+                format!("slots of row \"{}\" overlap by {:.3} mm", row.name, -land)
+            };
+            let fault = Fault::new(format!("{pointer}/height"), "ligament", message);
+            faults.push(fault.value(row.height).max(row.height + land - least).unit("mm"));
+            continue;
+        }
+        for i in 0..count {
+            let v = row.span[0] + (row.span[1] - row.span[0]) * (i as f64 + 0.5) / count as f64;
+            let slot = Slot { row, pointer: &pointer, number: i + 1, frame: edge.frame(v), land, least };
+            match slot.drill(blank, &around, &mut drill) {
+                Ok(slot) => made.push(slot),
+                Err(fault) => faults.push(fault),
+            }
+        }
+    }
+    if faults.is_empty() { Ok(made) } else { Err(BuildError::Refused(faults)) }
+}
