@@ -75,12 +75,18 @@ fn pritchard(draw: &mut Draw) -> (Value, Value) {
     let law = |hub: f64, tip: f64| if linear { json!(hub) } else { json!([[0, hub], [1, tip]]) };
     let steeper = exit - draw.between(1.0, 4.0);
     let (leading, trailing) = (draw.between(0.04, 0.06) * chord, draw.between(0.012, 0.018) * chord);
-    let tangential = draw.between(0.4, 0.55);
+    // Edges as far apart as a camber line of these angles puts them.
+    let fuller = draw.between(0.26, 0.34);
+    let tangential = |inlet: f64, exit: f64, chord: f64| {
+        chord * (fuller - 0.2 * (inlet.to_radians().tan() + exit.to_radians().tan()))
+    };
+    let less = draw.between(0.0, 10.0);
+    let edges = law(tangential(inlet, exit, chord), tangential(inlet - less, steeper, chord * taper));
     let wedge = draw.between(7.0, 11.0);
     let mut blade = json!({
         "kind": "pritchard", "blade_count": count as u32, "stacking": "centroid",
-        "axial_chord": law(chord, chord * taper), "tangential_chord": law(tangential * chord, tangential * chord * taper),
-        "unguided_turning_deg": draw.between(4.0, 9.0), "inlet_angle_deg": law(inlet, inlet - draw.between(0.0, 10.0)),
+        "axial_chord": law(chord, chord * taper), "tangential_chord": edges,
+        "unguided_turning_deg": draw.between(4.0, 9.0), "inlet_angle_deg": law(inlet, inlet - less),
         "inlet_half_wedge_deg": wedge, "leading_edge_radius": law(leading, leading * taper),
         "exit_angle_deg": law(exit, steeper), "trailing_edge_radius": law(trailing, trailing * taper),
         "throat": law(throat(radius, exit), throat(tip, steeper)),

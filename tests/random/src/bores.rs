@@ -9,10 +9,12 @@ const SIDES: [&str; 2] = ["suction_side", "pressure_side"];
 
 /// Adds rows of film holes and slots.
 pub(crate) fn add(draw: &mut Draw, drawing: &Drawing, interior: &Interior, cooling: &mut Value) {
-    let mut rows = Vec::new();
+    let mut rows = if draw.once_in(3) { showerhead(draw, drawing, interior) } else { Vec::new() };
+    let head = !rows.is_empty();
     for (k, (name, span)) in interior.chambers.iter().enumerate() {
         for side in 0..2 {
-            if draw.once_in(2) {
+            // A showerhead takes up the leading chamber.
+            if draw.once_in(2) || (head && k == 0) {
                 continue;
             }
             if let Some(mut row) = row(draw, drawing, interior, k, side, *span) {
@@ -20,9 +22,6 @@ pub(crate) fn add(draw: &mut Draw, drawing: &Drawing, interior: &Interior, cooli
                 rows.push(row);
             }
         }
-    }
-    if draw.once_in(3) {
-        rows.extend(showerhead(draw, drawing, interior));
     }
     if !rows.is_empty() {
         cooling["film_rows"] = json!(rows);
@@ -49,12 +48,13 @@ fn shape(draw: &mut Draw, d: f64, alpha: f64, length: f64) -> (Value, f64) {
             (json!({ "kind": "racetrack", "width_d": width }), d * width)
         }
         _ => {
-            // From the end of the metering part to the upstream edge's breakout there must be room to widen.
-            let room = length / d - 0.5 / alpha.to_radians().tan();
-            if room < 1.2 {
+            // The metering part is round at the inner breakout, the widened one where its upstream edge breaks out.
+            let slant = 0.5 / alpha.to_radians().tan();
+            let room = length / d - 2.0 * slant;
+            if room < 0.8 {
                 return round;
             }
-            let metering = draw.between(0.3, 0.6) * room;
+            let metering = slant + 0.1 + draw.between(0.2, 0.5) * room;
             let lateral = draw.between(5.0, 14.0f64);
             let forward = *draw.of(&[0.0, 7.0, 10.0]);
             let width = d + 2.0 * (length - metering * d) * lateral.to_radians().tan();
@@ -145,7 +145,13 @@ fn showerhead(draw: &mut Draw, drawing: &Drawing, interior: &Interior) -> Vec<Va
     let d = draw.between(0.4, 0.8);
     let alpha = draw.between(25.0, 60.0f64);
     let nose = drawing.least(|s| s.nose[0].min(s.nose[1]));
-    let pitch = draw.between(4.0, 8.0) * d;
+    // Rows converge inwards: a staggered neighbour must pass between two holes.
+    let pitch = draw.between(4.0, 8.0f64).max(2.8 / alpha.to_radians().sin()) * d;
+    // The metal ahead of the leading chamber: more of it than the shell means that it ends far behind the nose.
+    let ahead = drawing.greatest(|s| s.length) * interior.ends[0] - interior.fillet - 0.2;
+    if ahead > 1.5 * interior.shell[0].max(interior.shell[1]) {
+        return Vec::new();
+    }
     let rise = interior.shell[0].max(interior.shell[1]) / alpha.to_radians().tan();
     let clear = (rise + d + 1.0) / drawing.height;
     let span = [straight[0] + clear, straight[1] - clear];
@@ -154,7 +160,7 @@ fn showerhead(draw: &mut Draw, drawing: &Drawing, interior: &Interior) -> Vec<Va
         return Vec::new();
     }
     let rows = *draw.of(&[1, 2, 3]);
-    let stagger = draw.between(0.1, 0.25);
+    let stagger = 0.25;
     let head = |name: &str, side: usize, distance: f64, stagger: f64| {
         json!({ "name": name, "side": SIDES[side], "surface_distance": distance, "span": span, "count": count as u32,
             "stagger": stagger, "chamber": interior.chambers[0].0,
@@ -202,13 +208,16 @@ pub(crate) fn radial_holes_alone(draw: &mut Draw, drawing: &Drawing) -> Value {
     let length = drawing.least(|s| s.length) * (range[1] - range[0]);
     let room = length / count as f64;
     let holes: Vec<Value> = (0..count)
-        .map(|i| {
+        .filter_map(|i| {
             let at = range[0] + (range[1] - range[0]) * (i as f64 + 0.5) / count as f64;
             // A millimetre of metal all round, and a straight axis in a bent blade.
-            let most = (2.0 * drawing.least(|s| s.radius(at)) - 2.0).min(room - 1.0).clamp(0.5, 6.0);
-            let d = draw.between(0.4 * most, 0.8 * most);
+            let most = (2.0 * (drawing.least(|s| s.radius(at)) - drawing.bow(at)) - 2.0).min(room - 1.0);
+            let d = draw.between(0.4, 0.8) * most.min(6.0);
+            if d < 0.4 {
+                return None;
+            }
             let diameter = if draw.once_in(2) { json!(d) } else { json!([[0, d], [1, 0.8 * d]]) };
-            json!({ "name": format!("{i}"), "diameter": diameter, "at": { "frame": "camber", "position": at } })
+            Some(json!({ "name": format!("{i}"), "diameter": diameter, "at": { "frame": "camber", "position": at } }))
         })
         .collect();
     json!({ "radial_holes": holes })

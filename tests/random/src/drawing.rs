@@ -3,7 +3,7 @@
 
 use coolinggen_blade::{Region, build};
 use coolinggen_cooling::design::Design;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use serde_json::Value;
 use std::path::Path;
 
@@ -37,6 +37,7 @@ struct Circle {
     /// Fraction of the camber line.
     at: f64,
     radius: f64,
+    centre: DVec3,
 }
 
 impl Drawing {
@@ -51,7 +52,7 @@ impl Drawing {
             (0..=n).map(|i| from + (to - from) * i as f64 / n as f64).collect()
         };
         let mut sections = Vec::new();
-        let mut ends: Vec<Vec<glam::DVec3>> = Vec::new();
+        let mut ends: Vec<Vec<DVec3>> = Vec::new();
         for v in SPANS {
             let surface = space.surface(v).ok()?;
             let points = |u: &[f64]| -> Option<Vec<DVec2>> {
@@ -64,7 +65,7 @@ impl Drawing {
             let middle = side_a[POINTS / 2];
             let scale = surface.scale(middle);
             ends.push([nose[0], middle, side_a[POINTS]].map(|q| surface.to_space(q)).to_vec());
-            sections.push(Section::new(&side_a, &side_b, &nose, scale)?);
+            sections.push(Section::new(&side_a, &side_b, &nose, scale, |q| surface.to_space(q))?);
         }
         let height = |k: usize| ends.windows(2).map(|pair| pair[0][k].distance(pair[1][k])).sum::<f64>();
         Some(Self { sections, height: height(0).min(height(1)).min(height(2)) })
@@ -78,6 +79,14 @@ impl Drawing {
     /// Greatest over the sections.
     pub fn greatest(&self, of: impl Fn(&Section) -> f64) -> f64 {
         self.sections.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// How far the camber line's points at a fraction bow away from the straight line from hub to tip, mm.
+    pub fn bow(&self, at: f64) -> f64 {
+        let centres: Vec<DVec3> = self.sections.iter().map(|s| s.near(at).centre).collect();
+        let (hub, tip) = (centres[0], centres[centres.len() - 1]);
+        let axis = (tip - hub).normalize();
+        centres.iter().map(|c| (*c - hub).reject_from(axis).length()).fold(0.0, f64::max)
     }
 
     /// Camber fractions between which all sections are at least so thick, mm.
@@ -95,7 +104,13 @@ impl Drawing {
 impl Section {
     /// From points of the suction side (front to back), of the pressure side (back to front) and of the nose (pressure
     /// side to suction side) in a chart, and the length in space of one unit there.
-    fn new(side_a: &[DVec2], side_b: &[DVec2], nose: &[DVec2], scale: f64) -> Option<Self> {
+    fn new(
+        side_a: &[DVec2],
+        side_b: &[DVec2],
+        nose: &[DVec2],
+        scale: f64,
+        space: impl Fn(DVec2) -> DVec3,
+    ) -> Option<Self> {
         let inwards = (side_b[side_b.len() / 2] - side_a[side_a.len() / 2]).normalize();
         let others: Vec<DVec2> = side_b.iter().chain(nose).copied().collect();
         let mut centres: Vec<(DVec2, f64)> = Vec::new();
@@ -119,7 +134,7 @@ impl Section {
         let (front, back) = (centres.first()?.1, centres.last()?.1);
         let length = front + lengths.last()? + back;
         let circles = (centres.iter().zip(&lengths))
-            .map(|(c, l)| Circle { at: (front + l) / length, radius: c.1 * scale })
+            .map(|(c, l)| Circle { at: (front + l) / length, radius: c.1 * scale, centre: space(c.0) })
             .collect();
         // The foremost point: farthest from the trailing edge.
         let tail = *side_a.last()?;
@@ -132,6 +147,11 @@ impl Section {
             nose: [along(&nose[far..]), along(&nose[..=far])],
             trailing_thickness: 2.0 * back * scale,
         })
+    }
+
+    /// The circle nearest behind a camber fraction.
+    fn near(&self, at: f64) -> Circle {
+        self.circles[self.circles.partition_point(|c| c.at < at).min(self.circles.len() - 1)]
     }
 
     /// Radius of the inscribed circle at a camber fraction, mm.

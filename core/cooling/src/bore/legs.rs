@@ -29,31 +29,60 @@ pub(super) fn legs(
     rays: &dyn Fn(f64) -> Ray,
     start: (FaceId, DVec2, f64),
 ) -> Result<(Vec<Leg>, (FaceId, Hit)), BoreError> {
-    let (mut face, first) = target.find(start.0, &rays(0.0), start.1, start.2)?;
-    let mut leg = Leg { face, start: (first.at, first.along), to: 1.0, crossing: None };
-    let mut out = Vec::new();
-    let mut last = (first.at, first.along);
-    let mut before = 0.0;
-    let mut end = first;
+    let (face, first) = target.find(start.0, &rays(0.0), start.1, start.2)?;
+    let leg = Leg { face, start: (first.at, first.along), to: 1.0, crossing: None };
+    let mut walk = Walk { target, rays, out: Vec::new(), leg, at: 0.0, hit: first };
     for k in 1..=STEPS {
-        let t = k as f64 / STEPS as f64;
-        let mut hit = target.meet(face, &rays(t), last.0, last.1).ok_or(BoreError::Misses)?;
-        while !target.holds(face, hit.at) {
-            if out.len() == MOST_CROSSINGS {
-                return Err(BoreError::Misses);
-            }
-            let crossing = target.crossing(face, rays, (before, t), last, &hit)?;
-            leg.to = crossing.t;
-            leg.crossing = Some(crossing);
-            out.push(leg);
-            face = crossing.to;
-            leg = Leg { face, start: (crossing.to_at, crossing.along), to: 1.0, crossing: None };
-            before = crossing.t;
-            last = (crossing.to_at, crossing.along);
-            hit = target.meet(face, &rays(t), crossing.to_at, crossing.along).ok_or(BoreError::Misses)?;
-        }
-        (last, before, end) = ((hit.at, hit.along), t, hit);
+        walk.step(k as f64 / STEPS as f64, 0)?;
     }
+    let Walk { mut out, leg, hit, .. } = walk;
+    let face = leg.face;
     out.push(leg);
-    Ok((out, (face, end)))
+    Ok((out, (face, hit)))
+}
+
+/// A path followed so far.
+struct Walk<'w> {
+    target: &'w Target<'w>,
+    rays: &'w dyn Fn(f64) -> Ray,
+    out: Vec<Leg>,
+    /// The leg it is on.
+    leg: Leg,
+    /// Parameter reached, and the hit there.
+    at: f64,
+    hit: Hit,
+}
+
+impl Walk<'_> {
+    /// Goes on to `t`; first to where it may have been over a border in between and come back.
+    fn step(&mut self, t: f64, depth: usize) -> Result<(), BoreError> {
+        const DEEPEST: usize = 6;
+        let meet = |face, near: &Hit| self.target.meet(face, &(self.rays)(t), near.at, near.along);
+        let hit = meet(self.leg.face, &self.hit).ok_or(BoreError::Misses)?;
+        if self.target.holds(self.leg.face, hit.at) {
+            let part = self.target.outmost(self.leg.face, [&self.hit, &hit], t - self.at);
+            if let Some(part) = part.filter(|_| depth < DEEPEST) {
+                self.step(self.at + (t - self.at) * part, depth + 1)?;
+                return self.step(t, depth + 1);
+            }
+            (self.at, self.hit) = (t, hit);
+            return Ok(());
+        }
+        if self.out.len() == MOST_CROSSINGS {
+            return Err(BoreError::Misses);
+        }
+        let last = (self.hit.at, self.hit.along);
+        let crossing = self.target.crossing(self.leg.face, self.rays, (self.at, t), last, &hit)?;
+        let next =
+            Leg { face: crossing.to, start: (crossing.to_at, crossing.along), to: 1.0, crossing: None };
+        let before = std::mem::replace(&mut self.leg, next);
+        self.out.push(Leg { to: crossing.t, crossing: Some(crossing), ..before });
+        let ray = (self.rays)(crossing.t);
+        self.hit =
+            (self.target.meet(crossing.to, &ray, crossing.to_at, crossing.along)).ok_or(BoreError::Misses)?;
+        // On the border to the last bit, as `crossing` has it.
+        self.hit.at = crossing.to_at;
+        self.at = crossing.t;
+        self.step(t, depth)
+    }
 }
