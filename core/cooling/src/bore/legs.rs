@@ -57,8 +57,16 @@ impl Walk<'_> {
     /// Goes on to `t`; first to where it may have been over a border in between and come back.
     fn step(&mut self, t: f64, depth: usize) -> Result<(), BoreError> {
         const DEEPEST: usize = 6;
-        let meet = |face, near: &Hit| self.target.meet(face, &(self.rays)(t), near.at, near.along);
-        let hit = meet(self.leg.face, &self.hit).ok_or(BoreError::Misses)?;
+        const LEAST_STEP: f64 = 1e-4;
+        let ray = (self.rays)(t);
+        let Some(hit) = self.target.meet(self.leg.face, &ray, self.hit.at, self.hit.along) else {
+            // A small face, a fillet's, need not go on far enough beyond its border.
+            if t - self.at < LEAST_STEP {
+                return Err(BoreError::Misses);
+            }
+            self.step(0.5 * (self.at + t), depth)?;
+            return self.step(t, depth);
+        };
         if self.target.holds(self.leg.face, hit.at) {
             let part = self.target.outmost(self.leg.face, [&self.hit, &hit], t - self.at);
             if let Some(part) = part.filter(|_| depth < DEEPEST) {
