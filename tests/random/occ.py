@@ -20,6 +20,7 @@ import close
 import measure
 import occ
 import topology
+from OCP.BRepCheck import BRepCheck_Analyzer
 
 
 def complaints(step: Path) -> list[str]:
@@ -31,8 +32,8 @@ def complaints(step: Path) -> list[str]:
         found.append(f"solids {sorted(p.name for p in products)}")
     for product in products:
         shape, name = product.shape, product.name
-        if faults := topology.faults(shape):
-            found.append(f"{name}: {faults[:3]}")
+        if not BRepCheck_Analyzer(shape).IsValid():
+            found.append(f"{name}: invalid")
         if free := topology.free_edges(shape):
             found.append(f"{name}: {free} free edges")
         if (tolerance := topology.greatest_tolerance(shape)) > close.TOLERANCE_MM:

@@ -100,7 +100,7 @@ fn row(
     let (along, across) = (length * alpha.to_radians().cos(), f64::to_radians(beta));
     let (shift, rise) = (along * across.cos(), (along * across.sin()).abs());
     // Half of the foot on the chamber's side, along the stream surface.
-    let reach = 0.5 * d.max(if beta.abs() > 20.0 { width } else { d }) / alpha.to_radians().sin() + 0.15;
+    let reach = 0.5 * d.max(if beta.abs() > 20.0 { width } else { d }) / alpha.to_radians().sin() + 0.3;
     let length_least = drawing.least(|s| s.length);
     let [front, back] = extent(drawing, interior, k, side);
     let (low, high) = (front + (reach + shift) / length_least, back + (shift - reach) / length_least);

@@ -97,7 +97,7 @@ pub(crate) fn cooling(draw: &mut Draw, drawing: &Drawing) -> Value {
         let mut span = [0.0, 1.0 - 1.5 * tip / drawing.height];
         if joined {
             // Turns take about as much height as the chambers are long, and the metal beyond.
-            let share = (mean + 2.0 * tip + 1.0) / drawing.height;
+            let share = (1.3 * mean + 2.0 * tip + 1.0) / drawing.height;
             span = [share, 1.0 - share];
         } else if draw.once_in(3) {
             span = [if draw.once_in(2) { 0.0 } else { draw.between(0.05, 0.2) }, draw.between(0.7, 0.93)];

@@ -2,13 +2,13 @@
 
 use super::blank::Blank;
 use super::error::BuildError;
-use super::sections::Section;
+use super::sections::{Section, over_span};
 use super::style;
 use crate::bore::{BoreNames, BoreShape, Drill, Frame, Mouth, rounded_rectangle};
 use crate::plan::SlotRowPlan;
 use coolinggen_blade::Fault;
 use coolinggen_brep::{CastHit, Caster, FaceId};
-use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve};
+use coolinggen_nurbs::{Curve, ParametricCurve};
 use glam::{DVec2, DVec3};
 
 /// A slot as built.
@@ -42,15 +42,15 @@ struct TrailingEdge {
 
 impl TrailingEdge {
     fn new(sections: &[Section], tails: &[DVec3]) -> Result<Self, BuildError> {
-        let v: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
-        let interpolator = Interpolator::new(3, &v)?;
         let edge = |s: &Section| {
             let (start, end) = s.outline.domain();
             let curve = s.outline.curve();
             s.stream.to_space(0.5 * (curve.point(start) + curve.point(end)))
         };
-        let edges: Vec<DVec3> = sections.iter().map(edge).collect();
-        Ok(Self { edge: interpolator.curve(&edges)?, tail: interpolator.curve(tails)? })
+        Ok(Self {
+            edge: over_span(sections, |i| edge(&sections[i]))?,
+            tail: over_span(sections, |i| tails[i])?,
+        })
     }
 
     /// A point near the trailing edge's middle, the direction out of the blade and the one towards the tip.

@@ -2,7 +2,7 @@
 
 use super::bridge::Bridged;
 use super::error::BuildError;
-use super::sections::{Grid, Section, WallLine, span_fractions, wall_lines};
+use super::sections::{Grid, Section, WallLine, span_fractions, wall_lines, well_apart};
 use super::shell::{EndRadii, OffsetSection, asked_thickness, offset_section};
 use super::spans::{Spans, spans};
 use crate::plan::{Plan, ShellPlan};
@@ -84,18 +84,12 @@ impl Stack {
     /// Indices of the sections that chamber `k` is lofted through: those within its span, less those nearer to a
     /// neighbour than a smooth loft bears. The ends stay.
     pub(super) fn of_chamber(&self, k: usize) -> Vec<usize> {
-        const LEAST_GAP: f64 = 0.04;
         let [start, end] = self.spans.chambers[k];
         let v = |i: usize| self.sections[i].stream.v();
-        let mut kept: Vec<usize> = Vec::new();
-        for i in (0..self.sections.len()).filter(|&i| (start..=end).contains(&v(i))) {
-            let clear =
-                kept.last().is_none_or(|&last| v(i) - v(last) >= LEAST_GAP) && end - v(i) >= LEAST_GAP;
-            if clear || v(i) == start || v(i) == end {
-                kept.push(i);
-            }
-        }
-        kept
+        let within: Vec<usize> =
+            (0..self.sections.len()).filter(|&i| (start..=end).contains(&v(i))).collect();
+        let fractions: Vec<f64> = within.iter().map(|&i| v(i)).collect();
+        well_apart(&fractions).into_iter().map(|k| within[k]).collect()
     }
 
     /// Indices of the sections of a turn, away from the chambers.
