@@ -1,23 +1,46 @@
 //! Files that are either complete or not there.
 
 use crate::ExportError;
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Distinguishes the temporary files of one process.
 static COUNTER: AtomicU64 = AtomicU64::new(0);
 
-/// Removes the temporary file unless it was renamed.
-struct Temporary(Option<PathBuf>);
+/// Temporary files that are being written.
+static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// A temporary file, removed unless it was renamed.
+struct Temporary(PathBuf);
+
+impl Temporary {
+    fn new(path: PathBuf) -> Self {
+        unfinished().insert(path.clone());
+        Self(path)
+    }
+}
 
 impl Drop for Temporary {
     fn drop(&mut self) {
-        if let Some(path) = self.0.take() {
-            // Nothing more can be done about a file that cannot be removed.
-            let _ = fs::remove_file(path);
-        }
+        // After a renaming there is none, and nothing more can be done about a file that cannot be removed.
+        let _ = fs::remove_file(&self.0);
+        unfinished().remove(&self.0);
+    }
+}
+
+fn unfinished() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes the temporary files that are being written, for a process that ends without waiting for their writers.
+pub fn remove_unfinished() {
+    for path in std::mem::take(&mut *unfinished()) {
+        // Nothing more can be done about one that cannot be removed.
+        let _ = fs::remove_file(path);
     }
 }
 
@@ -39,14 +62,13 @@ pub fn write_atomically(
     hidden.push(format!(".{}-{}.tmp", std::process::id(), COUNTER.fetch_add(1, Ordering::Relaxed)));
     let temporary = path.with_file_name(hidden);
     let file = File::options().write(true).create_new(true).open(&temporary)?;
-    let mut guard = Temporary(Some(temporary.clone()));
+    let temporary = Temporary::new(temporary);
     let mut writer = BufWriter::with_capacity(1 << 18, file);
     write(&mut writer)?;
     writer.flush()?;
     // Windows refuses to rename an open file.
     drop(writer);
-    fs::rename(&temporary, path)?;
-    guard.0 = None;
+    fs::rename(&temporary.0, path)?;
     Ok(())
 }
 

@@ -14,7 +14,7 @@ mod stl;
 mod tessellate;
 
 pub use error::ExportError;
-pub use file::write_atomically;
+pub use file::{remove_unfinished, write_atomically};
 pub use glb::write_glb;
 pub use obj::{write_mtl, write_obj};
 pub use step::{StepOptions, write_step};

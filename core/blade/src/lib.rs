@@ -10,6 +10,7 @@ mod fault;
 mod law;
 mod loft;
 mod medial;
+mod offset;
 mod section;
 mod source;
 mod stream;

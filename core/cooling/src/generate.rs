@@ -4,19 +4,30 @@ use crate::build::{BuildError, CooledBlade, build};
 use crate::design::Design;
 use crate::plan::Plan;
 use crate::report::{Report, Timings};
-use coolinggen_blade::{Blade, Fault};
-use std::path::Path;
-use std::time::Instant;
+use crate::watch::{Stage, Unwatched, Watch};
+use coolinggen_blade::{Blade, BladeSource, Fault, SpaceSpec, StreamSpace};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Instant, SystemTime};
 
 /// A built and measured design.
 #[derive(Clone, Debug)]
 pub struct Generated {
     /// The outer surface.
-    pub surface: Blade,
+    pub surface: Arc<Blade>,
     /// The model with its solids.
     pub blade: CooledBlade,
     /// Its measures.
     pub report: Report,
+}
+
+/// Why a generation came to no model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stopped {
+    /// The design was refused: all faults found.
+    Refused(Vec<Fault>),
+    /// [`Watch::cancelled`] said so.
+    Cancelled,
 }
 
 /// Builds a design; `folder` is what relative paths in it refer to.
@@ -24,29 +35,100 @@ pub struct Generated {
 /// # Errors
 /// All faults found: those of blade, space and cooling that need no geometry together, else those of the geometry.
 pub fn generate(design: &Design, folder: &Path) -> Result<Generated, Vec<Fault>> {
-    let started = Instant::now();
-    let plan = design.cooling.as_ref().map_or_else(|| Ok(Plan::default()), Plan::new);
-    let source = coolinggen_blade::build(&design.space, &design.blade, folder);
-    let ((space, surface), plan) = match (source, plan) {
-        (Ok(source), Ok(plan)) => (source, plan),
-        (source, plan) => {
-            let mut faults = source.err().unwrap_or_default();
-            faults.extend(plan.err().unwrap_or_default());
-            return Err(faults);
+    Warm::default().generate(design, folder, &Unwatched).map_err(|stopped| match stopped {
+        Stopped::Refused(faults) => faults,
+        Stopped::Cancelled => Vec::new(),
+    })
+}
+
+/// What is kept from one generation for the next of a similar design.
+#[derive(Clone, Debug, Default)]
+pub struct Warm {
+    outer: Option<Arc<Outer>>,
+}
+
+/// A blade's outer surface with what it was made from.
+#[derive(Debug)]
+struct Outer {
+    from: OuterKey,
+    space: StreamSpace,
+    surface: Arc<Blade>,
+}
+
+/// Everything that an outer surface depends on.
+#[derive(Clone, Debug, PartialEq)]
+struct OuterKey {
+    space: SpaceSpec,
+    source: BladeSource,
+    folder: PathBuf,
+    /// Time and length of the file that the source names.
+    file: Option<(SystemTime, u64)>,
+}
+
+impl OuterKey {
+    fn new(design: &Design, folder: &Path) -> Self {
+        let stamp = |file: &Path| {
+            let data = std::fs::metadata(folder.join(file)).ok()?;
+            Some((data.modified().ok()?, data.len()))
+        };
+        let file = design.blade.file().and_then(stamp);
+        Self { space: design.space.clone(), source: design.blade.clone(), folder: folder.to_owned(), file }
+    }
+}
+
+impl Warm {
+    /// As [`generate`], reusing what a generation before made from the same parameters, and telling `watch`.
+    ///
+    /// # Errors
+    /// See [`Stopped`].
+    pub fn generate(
+        &mut self,
+        design: &Design,
+        folder: &Path,
+        watch: &dyn Watch,
+    ) -> Result<Generated, Stopped> {
+        let started = Instant::now();
+        let begin = |stage: Stage| {
+            watch.begins(stage);
+            if watch.cancelled() { Err(Stopped::Cancelled) } else { Ok(Instant::now()) }
+        };
+        let refused = |error: BuildError| Stopped::Refused(error.into_faults());
+        let milliseconds = |since: Instant| since.elapsed().as_secs_f64() * 1e3;
+
+        begin(Stage::Blade)?;
+        let plan = design.cooling.as_ref().map_or_else(|| Ok(Plan::default()), Plan::new);
+        let (outer, plan) = match (self.outer(design, folder), plan) {
+            (Ok(outer), Ok(plan)) => (outer, plan),
+            (outer, plan) => {
+                let mut faults = outer.err().unwrap_or_default();
+                faults.extend(plan.err().unwrap_or_default());
+                return Err(Stopped::Refused(faults));
+            }
+        };
+        let blade_ms = milliseconds(started);
+        let built = begin(Stage::Build)?;
+        let blade = build(&outer.surface, &outer.space, &plan).map_err(refused)?;
+        let build_ms = milliseconds(built);
+        let measured = begin(Stage::Measure)?;
+        let mut report = Report::new(&design.name, &outer.surface, &blade).map_err(refused)?;
+        report.timings_ms = Timings {
+            blade: blade_ms,
+            build: build_ms,
+            measure: milliseconds(measured),
+            total: milliseconds(started),
+        };
+        Ok(Generated { surface: Arc::clone(&outer.surface), blade, report })
+    }
+
+    /// The outer surface of the design, the last one if nothing that it depends on has changed.
+    fn outer(&mut self, design: &Design, folder: &Path) -> Result<Arc<Outer>, Vec<Fault>> {
+        let from = OuterKey::new(design, folder);
+        if let Some(outer) = self.outer.as_ref().filter(|outer| outer.from == from) {
+            return Ok(Arc::clone(outer));
         }
-    };
-    let milliseconds = |since: Instant| since.elapsed().as_secs_f64() * 1e3;
-    let blade_ms = milliseconds(started);
-    let built = Instant::now();
-    let blade = build(&surface, &space, &plan).map_err(BuildError::into_faults)?;
-    let build_ms = milliseconds(built);
-    let measured = Instant::now();
-    let mut report = Report::new(&design.name, &surface, &blade).map_err(BuildError::into_faults)?;
-    report.timings_ms = Timings {
-        blade: blade_ms,
-        build: build_ms,
-        measure: milliseconds(measured),
-        total: milliseconds(started),
-    };
-    Ok(Generated { surface, blade, report })
+        let (space, surface) = coolinggen_blade::build(&design.space, &design.blade, folder)?;
+        let outer = Arc::new(Outer { from, space, surface: Arc::new(surface) });
+        self.outer = Some(Arc::clone(&outer));
+        Ok(outer)
+    }
 }

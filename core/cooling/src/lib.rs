@@ -11,5 +11,7 @@ pub mod plan;
 pub mod report;
 pub mod section;
 mod turn;
+mod watch;
 
-pub use generate::{Generated, generate};
+pub use generate::{Generated, Stopped, Warm, generate};
+pub use watch::{Stage, Unwatched, Watch};

@@ -166,6 +166,44 @@ fn the_greatest_fillet_is_told_exactly_in_an_annulus_too() {
     }
 }
 
+#[test]
+fn a_shell_too_thick_is_told_by_how_much() {
+    let with = |shell: f64| {
+        let mut design = sample("rotor.json");
+        design["cooling"]["shell"] = json!({"suction_side": shell, "pressure_side": shell});
+        faults(&design)
+    };
+    for shell in [2.5, 2.8, 2.9, 2.95, 2.98, 3.0, 3.05, 3.1, 3.15, 3.2, 3.5, 4.0] {
+        let found = with(shell);
+        assert!(!found.is_empty());
+        for fault in found {
+            let (value, max) = (fault.value.as_ref().and_then(Value::as_f64).unwrap(), fault.max.unwrap());
+            assert!(
+                value > max && fault.unit == "mm" && fault.message.contains("span fraction"),
+                "{fault:?}"
+            );
+            // At most two ends are too great for the shell: as thick as told, that one has room.
+            if fault.pointer == "/cooling/shell" {
+                let still = with(0.999 * max).into_iter().find(|f| f.pointer == fault.pointer);
+                assert!(
+                    still.is_none_or(
+                        |f| f.message.split("radius").nth(1) != fault.message.split("radius").nth(1)
+                    )
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn walls_that_cross_or_miss_the_sides_are_blamed() {
+    let mut design = sample("rotor.json");
+    design["cooling"]["walls"][1]["angle_deg"] = json!(30);
+    design["cooling"]["walls"][0]["angle_deg"] = json!(150);
+    let found = pointers(&design);
+    assert!(found.iter().any(|p| p == "/cooling/walls/1"), "{found:?}");
+}
+
 /// The Pritchard sample with a short tangential chord, which drives a hump into the suction side at the throat.
 fn humped(throat: f64) -> Value {
     let mut design = sample("pritchard.json");

@@ -1,6 +1,7 @@
 //! What may be said on the command line.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use crate::export::{Format, SolidChoice};
+use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
 /// Turns one JSON design of a blade and its cooling into named, watertight NURBS solids of metal and coolant.
@@ -40,6 +41,8 @@ pub(crate) enum Command {
     },
     /// Print the JSON Schema of a design
     Schema,
+    /// Serve other programs: JSON-RPC, one message a line, over standard input and output
+    Serve(ServeOptions),
 }
 
 #[derive(Debug, Args)]
@@ -66,26 +69,18 @@ pub(crate) struct GenerateOptions {
     pub(crate) json: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
-    /// STEP AP214, exact
-    Step,
-    /// Binary glTF
-    Glb,
-    /// Wavefront OBJ with its materials
-    Obj,
-    /// ASCII STL with a region a face
-    Stl,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SolidChoice {
-    /// The blade's material
-    Metal,
-    /// What fills its passages, a solid a passage
-    Coolant,
-    /// Everything in one file
-    Assembly,
+/// How to serve.
+#[derive(Debug, Args)]
+pub(crate) struct ServeOptions {
+    /// Listen on a local socket, too: a path, or a name in the user's folder for such things
+    #[arg(long, value_name = "NAME")]
+    pub(crate) socket: Option<String>,
+    /// Leave standard input and output alone and serve on the socket until a client says `shutdown`
+    #[arg(long, requires = "socket")]
+    pub(crate) detached: bool,
+    /// Print the page of the protocol instead, Markdown
+    #[arg(long)]
+    pub(crate) describe: bool,
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -1,14 +1,14 @@
 //! The commands: read, build, write, print.
 
-use crate::arguments::{Format, GenerateOptions, SolidChoice};
+use crate::arguments::GenerateOptions;
+use crate::export::Export;
 use crate::outcome::Failure;
 use crate::progress::Progress;
 use crate::templates::TEMPLATES;
 use coolinggen_blade::Fault;
 use coolinggen_cooling::design::{Design, design_schema};
 use coolinggen_cooling::{Generated, generate as build};
-use coolinggen_exporters as exporters;
-use exporters::{TessellationOptions, write_atomically};
+use coolinggen_exporters::{TessellationOptions, write_atomically};
 use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
@@ -55,8 +55,6 @@ pub(crate) fn inspect(path: &Path, json: bool) -> Result<(), Failure> {
 pub(crate) fn generate(options: &GenerateOptions) -> Result<(), Failure> {
     let json = options.json;
     let generated = read_and_build(&options.design, json)?;
-    std::fs::create_dir_all(&options.out)
-        .map_err(|e| Failure::file("make the folder", &options.out, e, json))?;
     let mut report = generated.report.to_json();
     let started = Instant::now();
     write_solids(options, &generated)?;
@@ -82,81 +80,33 @@ fn read_and_build(path: &Path, json: bool) -> Result<Generated, Failure> {
 }
 
 fn write_solids(options: &GenerateOptions, generated: &Generated) -> Result<(), Failure> {
-    let model = &generated.blade.model;
-    let json = options.json;
-    let tessellation = TessellationOptions {
-        chord_mm: options.chord,
-        angle_deg: options.angle,
-        ..TessellationOptions::default()
+    let export = Export {
+        folder: &options.out,
+        formats: &options.format,
+        solids: &options.solids,
+        tessellation: TessellationOptions {
+            chord_mm: options.chord,
+            angle_deg: options.angle,
+            ..TessellationOptions::default()
+        },
     };
-    let meshes = options.format.iter().any(|f| *f != Format::Step);
-    let progress = Progress::new((options.format.len() * options.solids.len() + usize::from(meshes)) as u64);
-    let mesh = if meshes {
-        progress.step("tessellating");
-        let mesh = exporters::tessellate(model, &tessellation);
-        progress.done();
-        Some(mesh.map_err(|e| Failure::other(e, json))?)
-    } else {
-        None
-    };
-    for choice in &options.solids {
-        let (part, chosen) = match choice {
-            SolidChoice::Metal => ("metal", "metal"),
-            SolidChoice::Coolant => ("coolant", "coolant/"),
-            SolidChoice::Assembly => ("assembly", ""),
-        };
-        let names: Vec<&str> =
-            model.solids.iter().map(|s| s.name.as_str()).filter(|n| n.starts_with(chosen)).collect();
-        if names.is_empty() {
-            continue;
-        }
-        for format in &options.format {
-            let (extension, alone) = match format {
-                Format::Step => ("step", true),
-                Format::Glb => ("glb", true),
-                Format::Obj => ("obj", false),
-                Format::Stl => ("stl", false),
-            };
-            if *choice == SolidChoice::Assembly && !alone {
-                continue;
-            }
-            let stem = format!("{}.{part}", generated.report.name);
-            let path = options.out.join(format!("{stem}.{extension}"));
-            progress.step(&path.display().to_string());
-            let step_options =
-                exporters::StepOptions { name: stem.clone(), ..exporters::StepOptions::default() };
-            let result = match (format, &mesh) {
-                (Format::Step, _) => {
-                    write_atomically(&path, |out| exporters::write_step(model, &names, &step_options, out))
-                }
-                (_, None) => Ok(()),
-                (Format::Glb, Some(mesh)) => {
-                    write_atomically(&path, |out| exporters::write_glb(model, &names, mesh, out))
-                }
-                (Format::Stl, Some(mesh)) => {
-                    write_atomically(&path, |out| exporters::write_stl(model, &names, mesh, out))
-                }
-                (Format::Obj, Some(mesh)) => {
-                    let library = format!("{stem}.mtl");
-                    write_atomically(&options.out.join(&library), |out| {
-                        exporters::write_mtl(model, &names, out)
-                    })
-                    .and_then(|()| {
-                        write_atomically(&path, |out| {
-                            exporters::write_obj(model, &names, mesh, &library, out)
-                        })
-                    })
-                }
-            };
-            result.map_err(|e| Failure::file("write", &path, e, json))?;
+    let progress = Progress::new(export.steps() as u64);
+    let mut started = false;
+    let written = export.write(generated, &mut |step| {
+        if std::mem::replace(&mut started, true) {
             progress.done();
         }
+        progress.step(step);
+        true
+    });
+    match written {
+        Ok(_) => Ok(()),
+        Err(failure) => Err(Failure::file(failure.what, &failure.path, failure.error, options.json)),
     }
-    Ok(())
 }
 
 /// Prints to standard output; a closed pipe is the reader's wish, not an error.
-fn print(text: &str) -> Result<(), Failure> {
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
     match std::io::stdout().write_all(text.as_bytes()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::other(error, false)),
         _ => Ok(()),

@@ -2,8 +2,10 @@
 
 mod arguments;
 mod commands;
+mod export;
 mod outcome;
 mod progress;
+mod serve;
 mod templates;
 
 use arguments::{Arguments, Command};
@@ -19,6 +21,7 @@ fn main() -> ExitCode {
         Command::Generate(options) => commands::generate(options),
         Command::Inspect { design, json } => commands::inspect(design, *json),
         Command::Schema => commands::schema(),
+        Command::Serve(options) => serve::serve(options),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -79,6 +79,14 @@ fn relative_to_design(faults: Vec<Fault>, space: &Pointer) -> Vec<Fault> {
 }
 
 impl BladeSource {
+    /// The file that it names, if it names one; relative paths are to the design's folder.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::Step(source) => Some(Path::new(&source.file)),
+            _ => None,
+        }
+    }
+
     /// Makes the blade.
     ///
     /// # Errors

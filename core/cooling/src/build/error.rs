@@ -47,6 +47,9 @@ impl BuildError {
             Refusal::ChamberVanishes { radius, needed } => {
                 fault.value(*needed).max(*radius).hint("a thinner shell, or smaller radii, leave the room")
             }
+            Refusal::ShellTooThick { thickness, greatest, .. } => {
+                fault.value(*thickness).max(*greatest).hint("a thinner shell, or smaller radii, leave the room")
+            }
             Refusal::FilletTooLarge { radius, greatest, .. } => fault.value(*radius).max(*greatest),
             Refusal::ChamberTooShort { length, .. } => fault
                 .value(*length)
@@ -56,7 +59,12 @@ impl BuildError {
                 .value(*bend)
                 .hint("a rounder side, or a thinner section there: chambers and holes are placed along the camber line"),
             Refusal::NoseTooSharp => fault.hint("a thinner shell at the nose, or a greater fillet radius"),
-            Refusal::NoInscribedCircle | Refusal::WallOutside { .. } => fault,
+            Refusal::WallOutside { past, .. } if *past > 0.0 => fault
+                .value(*past)
+                .max(0.0)
+                .hint("a wall farther from the edge, or a thinner shell"),
+            Refusal::WallOutside { .. } => fault.hint("a wall more across the camber line"),
+            Refusal::NoInscribedCircle => fault,
         }
     }
 

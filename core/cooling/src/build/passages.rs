@@ -178,18 +178,18 @@ fn chamber_rings<'s>(stack: &'s Stack, plan: &Plan, k: usize) -> (Vec<RingSectio
 
 /// The ring of chamber `k` in section `i`, or what is refused.
 pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Box<Fault>> {
-    let offset = &stack.offsets[i];
+    let (section, offset) = (&stack.sections[i], &stack.offsets[i]);
+    let v = section.stream.v();
+    let (radius, scale) = (plan.chambers[k].fillet_radius.at(v), section.scale(offset.camber.at(0.5).center));
     let [front, back] = closures(stack, plan, k, i);
     let request = RingRequest { outline: &offset.outline, camber: &offset.camber, front, back };
     let ring = match k {
-        0 if !offset.circle_is_clear() => Err(Refusal::NoseTooSharp),
+        0 if !offset.circle_is_clear() => Err(offset.nose_refusal(radius / scale)),
         _ => chamber_ring(&request),
     };
     ring.map_err(|refusal| {
-        let radius = plan.chambers[k].fillet_radius.at(stack.sections[i].stream.v());
-        let refusal = refusal.with_radius_in_space(radius);
-        let at = blame(&format!("/cooling/chambers/{k}"), &refusal);
-        Box::new(BuildError::fault(&at, stack.sections[i].stream.v(), &refusal))
+        let refusal = refusal.in_space(scale, radius);
+        Box::new(BuildError::fault(&blame(plan, k, &refusal), v, &refusal))
     })
 }
 
@@ -222,10 +222,19 @@ fn closures(stack: &Stack, plan: &Plan, k: usize, i: usize) -> [ClosureKind; 2] 
     [front, back]
 }
 
-/// The parameter to blame for a chamber's refusal.
-fn blame(pointer: &str, refusal: &Refusal) -> String {
+/// The parameter to blame for a refusal of chamber `k`: the wall that stands wrong, where it is one's.
+fn blame(plan: &Plan, k: usize, refusal: &Refusal) -> String {
+    let chamber = format!("/cooling/chambers/{k}");
     match refusal {
-        Refusal::FilletTooLarge { .. } => format!("{pointer}/fillet_radius"),
-        _ => pointer.to_owned(),
+        Refusal::FilletTooLarge { .. } => format!("{chamber}/fillet_radius"),
+        Refusal::WallOutside { wall, .. } => {
+            let found = plan.walls.iter().position(|w| w.name == *wall);
+            found.map_or(chamber, |w| format!("/cooling/walls/{w}"))
+        }
+        // Of two walls that cross, the one behind the chamber.
+        Refusal::ChamberTooShort { .. } if !plan.walls.is_empty() => {
+            format!("/cooling/walls/{}", k.min(plan.walls.len() - 1))
+        }
+        _ => chamber,
     }
 }

@@ -67,9 +67,13 @@ impl Grid {
         Ok(Self { nodes, pieces, leading_edge: (leading[0], leading[1]), nose })
     }
 
-    /// Ranges of the nodes of pressure side, leading edge and suction side; joints belong to both neighbours.
-    pub(super) fn piece_nodes(&self) -> impl Iterator<Item = RangeInclusive<usize>> + '_ {
-        self.pieces.iter().map(|p| p.nodes.clone())
+    /// The nodes, the two at the trailing edge moved off its kink onto their sides.
+    pub(super) fn inside(&self) -> Vec<f64> {
+        const OFF: f64 = 1e-9;
+        let mut nodes = self.nodes.clone();
+        let last = nodes.len() - 1;
+        (nodes[0], nodes[last]) = (nodes[0] + OFF, nodes[last] - OFF);
+        nodes
     }
 
     /// The curve through points at the nodes: a cubic a region, continuous where they join.

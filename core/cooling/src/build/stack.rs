@@ -6,7 +6,7 @@ use super::sections::{Grid, Section, WallLine, span_fractions, wall_lines, well_
 use super::shell::{EndRadii, OffsetSection, asked_thickness, offset_section};
 use super::spans::{Spans, spans};
 use crate::plan::{Plan, ShellPlan};
-use crate::section::{Refusal, circle_of_radius};
+use crate::section::circle_of_radius;
 use coolinggen_blade::{Blade, StreamSpace};
 use coolinggen_nurbs::{ParametricCurve, ParametricSurface, Projection};
 use glam::DVec3;
@@ -178,11 +178,9 @@ fn round_noses(
             && offset.sharp_nose.is_some()
             && !sound_nose(blade, grid, section, &opened, shell, at, radius)?
         {
-            return Err(BuildError::refused(
-                "/cooling/chambers/0",
-                section.stream.v(),
-                &Refusal::NoseTooSharp,
-            ));
+            let scale = section.scale(opened.camber.front().center);
+            let refusal = offset.nose_refusal(radius).in_space(scale, radii(section).front);
+            return Err(BuildError::refused("/cooling/chambers/0", section.stream.v(), &refusal));
         }
         *offset = opened;
         nose.push(at);

@@ -15,7 +15,7 @@ mod turns;
 pub use chambers::{Chamber, Shell, Wall};
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
 pub use radial_holes::{HolePlacement, RadialHole};
-pub use schema::{design_schema, schema_faults};
+pub use schema::{design_schema, faults_against, schema_faults};
 pub use slots::SlotRow;
 pub use turns::{Automatic, Clearance, Turn, TurnEnd};
 

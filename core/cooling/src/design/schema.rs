@@ -18,9 +18,13 @@ pub fn design_schema() -> &'static Value {
 /// More faults than this are counted, not listed: a million bad points say no more than a hundred.
 const LISTED: usize = 100;
 
-/// All faults of `document` against the schema.
+/// All faults of `document` against the schema of a design.
 pub fn schema_faults(document: &Value) -> Vec<Fault> {
-    let schema = design_schema();
+    faults_against(design_schema(), document)
+}
+
+/// All faults of `document` against a schema that was derived from a type.
+pub fn faults_against(schema: &'static Value, document: &Value) -> Vec<Fault> {
     let mut walk = Walk { root: schema, faults: Vec::new(), found: 0 };
     walk.check(schema, document, &mut String::new(), &Limits::default());
     if walk.found > LISTED {

@@ -1,7 +1,7 @@
 //! A chamber of one section: a ring of eight segments.
 
 use super::camber::Camber;
-use super::closure::{End, closure};
+use super::closure::{End, closure, past_camber};
 use super::march::MarchLimits;
 use super::outline::Outline;
 use super::refusal::Refusal;
@@ -103,7 +103,7 @@ const FACTOR_ACCURACY: f64 = 1e-9;
 fn with_greatest_fillet(request: &RingRequest<'_>, refusal: Refusal) -> Refusal {
     let RingRequest { outline, camber, front, back } = request;
     let named = match &refusal {
-        Refusal::FilletTooLarge { wall, .. } | Refusal::WallOutside { wall } => Some(wall),
+        Refusal::FilletTooLarge { wall, .. } | Refusal::WallOutside { wall, .. } => Some(wall),
         Refusal::ChamberTooShort { .. } => None,
         _ => return refusal,
     };
@@ -122,7 +122,9 @@ fn with_greatest_fillet(request: &RingRequest<'_>, refusal: Refusal) -> Refusal 
         if low < LEAST_FACTOR {
             // Not the fillets: the two sides have crossed already where the wall stands.
             return match refusal {
-                Refusal::FilletTooLarge { wall, .. } => Refusal::WallOutside { wall },
+                Refusal::FilletTooLarge { wall: name, .. } => {
+                    Refusal::WallOutside { past: past_camber(camber, wall.center), wall: name }
+                }
                 other => other,
             };
         }

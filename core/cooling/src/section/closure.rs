@@ -84,7 +84,7 @@ fn wall_closure(
     let near = nearest_contact(camber, wall.center);
     let reach = wall.half_thickness + wall.fillet;
     let root = |u: f64| wall_fillet(outline, wall, normal, reach, u);
-    let outside = || Refusal::WallOutside { wall: wall.name.clone() };
+    let outside = || Refusal::WallOutside { wall: wall.name.clone(), past: past_camber(camber, wall.center) };
     let (suction, center_a) = root(near.suction).ok_or_else(outside)?;
     let (pressure, center_b) = root(near.pressure).ok_or_else(outside)?;
     let (foot_a, foot_b) = (center_a - normal * wall.fillet, center_b - normal * wall.fillet);
@@ -136,6 +136,12 @@ fn wall_fillet(
         u += change;
     }
     None
+}
+
+/// How far a point lies before the first or behind the last marched circle's centre; negative between them.
+pub(super) fn past_camber(camber: &Camber, point: DVec2) -> f64 {
+    let (front, back) = (camber.front(), camber.back());
+    (front.center - point).dot(front.tangent).max((point - back.center).dot(back.tangent))
 }
 
 /// The marched circle nearest to a point.

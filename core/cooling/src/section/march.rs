@@ -191,18 +191,21 @@ fn hump(outline: &Outline, nose: f64, end: &Contact, limits: &MarchLimits) -> Op
 }
 
 /// A first circle: touching the suction side at 40 % or nearby, found by trying every point of the pressure side. The
-/// first that is not near to osculating a side, or the one farthest from it.
+/// first that is not near to osculating a side and has room to shrink to the least radii, or the one farthest from
+/// osculating, or else the greatest: thin blades with a thick shell have room near the nose alone.
 fn start(outline: &Outline, nose: f64, limits: &MarchLimits) -> Option<(f64, f64, f64)> {
     const CLEAR: f64 = 0.2;
-    let mut best: Option<(f64, (f64, f64, f64))> = None;
+    let least = limits.front_radius.max(limits.back_radius);
+    let mut best: Option<([f64; 2], (f64, f64, f64))> = None;
     for fraction in [0.4, 0.3, 0.5, 0.2, 0.6, 0.1, 0.7, 0.8] {
         let Some(z) = circle_at(outline, nose, fraction, limits) else { continue };
         let margin = System::new(outline, z.0, z.1, z.2).margin(z.2);
-        if margin > CLEAR {
+        if margin > CLEAR && z.2 > least {
             return Some(z);
         }
-        if best.is_none_or(|(m, _)| margin > m) {
-            best = Some((margin, z));
+        let rank = [(z.2 - least).min(0.0), margin];
+        if best.is_none_or(|(other, _)| rank > other) {
+            best = Some((rank, z));
         }
     }
     best.map(|(_, z)| z)
