@@ -51,9 +51,14 @@ def design(holes: int, folder: Path) -> Path:
     document = json.loads((REPOSITORY / "samples/rotor.json").read_text(encoding="utf-8"))
     rows = max(1, holes // 40) if holes else 0
     document["cooling"]["film_rows"] = [
-        {"name": f"r{number}", "side": side, "surface_position": place, "span": SPAN,
-         "count": holes // rows + (number < holes % rows),
-         "hole": {"diameter": DIAMETER, "inclination_deg": 60}}
+        {
+            "name": f"r{number}",
+            "side": side,
+            "surface_position": place,
+            "span": SPAN,
+            "count": holes // rows + (number < holes % rows),
+            "hole": {"diameter": DIAMETER, "inclination_deg": 60},
+        }
         for number, (side, place) in enumerate(places(rows))
     ]
     path = folder / f"holes{holes}.json"
@@ -92,9 +97,16 @@ def peer(path: Path, holes: list[dict]) -> None:
         tools.append(BRepPrimAPI_MakeCylinder(axis, hole["diameter_mm"] / 2, reach).Shape())
     drilled = rotor_peer.boolean(BRepAlgoAPI_Cut(), [metal], tools)
     drill = time.process_time() - start
-    print(json.dumps({"blade_s": sum(watch.seconds.values()), "drill_s": drill,
-                      "faces_added": len(rotor_peer.faces(drilled)) - len(rotor_peer.faces(metal)),
-                      "valid": BRepCheck_Analyzer(drilled).IsValid()}))
+    print(
+        json.dumps(
+            {
+                "blade_s": sum(watch.seconds.values()),
+                "drill_s": drill,
+                "faces_added": len(rotor_peer.faces(drilled)) - len(rotor_peer.faces(metal)),
+                "valid": BRepCheck_Analyzer(drilled).IsValid(),
+            }
+        )
+    )
 
 
 def main() -> None:
@@ -119,7 +131,10 @@ def main() -> None:
             least[count], report = timed(options.core, path, options.runs)
             reports[count] = report
             found = len(report.get("holes", []))
-            print(f"{count:6} holes {least[count]:10.1f} ms   genus {report['genus']['metal']['found']}", flush=True)
+            print(
+                f"{count:6} holes {least[count]:10.1f} ms   genus {report['genus']['metal']['found']}",
+                flush=True,
+            )
             assert found == count
         cost = [(n, least[n] - least[0]) for n in options.counts if least[n] > least[0]]
         slope = np.polyfit(*np.log(np.array(cost)).T, 1)[0]
@@ -133,9 +148,12 @@ def main() -> None:
             record = answer(options.core, sys.executable, HERE / "holes.py", "--as-peer", path, holes)
             ours, _ = timed(options.core, path, options.runs)
             theirs = 1000 * (record["blade_s"] + record["drill_s"])
-            print(f"{count:6} holes: build123d {theirs:.0f} ms (blade {1000 * record['blade_s']:.0f}, holes "
-                  f"{1000 * record['drill_s']:.0f}; {record['faces_added']} faces more, valid "
-                  f"{record['valid']}), coolinggen {ours:.1f} ms: {theirs / ours:.0f} times", flush=True)
+            print(
+                f"{count:6} holes: build123d {theirs:.0f} ms (blade {1000 * record['blade_s']:.0f}, holes "
+                f"{1000 * record['drill_s']:.0f}; {record['faces_added']} faces more, valid "
+                f"{record['valid']}), coolinggen {ours:.1f} ms: {theirs / ours:.0f} times",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

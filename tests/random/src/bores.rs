@@ -1,7 +1,7 @@
 //! Film holes, slots and radial holes, where the drawing has room for them.
 
 use crate::draw::Draw;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Section};
 use crate::interior::Interior;
 use serde_json::{Value, json};
 
@@ -68,7 +68,7 @@ fn shape(draw: &mut Draw, d: f64, alpha: f64, length: f64) -> (Value, f64) {
 /// Camber fractions that chamber `k` takes up at the inner side of a shell, in the tightest section.
 fn extent(drawing: &Drawing, interior: &Interior, k: usize, side: usize) -> [f64; 2] {
     let edge = |wall: &[f64; 3], sign: f64| {
-        let worst = |s: &crate::drawing::Section| {
+        let worst = |s: &Section| {
             let angle = wall[1].to_radians();
             let leaned = (s.radius(wall[0]) - interior.shell[side]).max(0.0) / angle.tan();
             let leaned = if side == 0 { leaned } else { -leaned };
@@ -202,7 +202,7 @@ fn slots(draw: &mut Draw, drawing: &Drawing, interior: &Interior) -> Option<Valu
 
 /// One to five radial holes along the camber line, here and there with a film row that the first of them feeds.
 pub(crate) fn radial_holes_alone(draw: &mut Draw, drawing: &Drawing) -> Value {
-    let thickest = 2.0 * drawing.least(|s| s.greatest_radius());
+    let thickest = 2.0 * drawing.least(Section::greatest_radius);
     let Some(range) = drawing.thicker((0.5 * thickest).max(2.0)) else { return json!({}) };
     let count = 1 + draw.below(5);
     let length = drawing.least(|s| s.length) * (range[1] - range[0]);

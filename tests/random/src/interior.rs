@@ -2,7 +2,7 @@
 
 use crate::bores;
 use crate::draw::Draw;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Section};
 use serde_json::{Value, json};
 
 /// What the holes must know of the chambers.
@@ -39,7 +39,7 @@ pub(crate) fn cooling(draw: &mut Draw, drawing: &Drawing) -> Value {
     if draw.once_in(8) {
         return bores::radial_holes_alone(draw, drawing);
     }
-    let room = 2.0 * drawing.least(|s| s.greatest_radius());
+    let room = 2.0 * drawing.least(Section::greatest_radius);
     // Walls of 0.8 to 2 mm, as long as half of the thickest part is left to flow.
     let most = (0.25 * room).clamp(0.8, 2.0);
     let (suction, shell_s) = {
