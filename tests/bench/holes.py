@@ -22,6 +22,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+
 from run import BINARY, HERE, REPOSITORY, answer
 
 DIAMETER = 0.25
@@ -79,11 +80,12 @@ def timed(core: int, path: Path, runs: int) -> tuple[float, dict]:
 
 def peer(path: Path, holes: list[dict]) -> None:
     """In a process of its own: the blade of rotor_peer.py less a cylinder for each hole; prints a record."""
-    import rotor_peer
     from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
     from OCP.BRepCheck import BRepCheck_Analyzer
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder
     from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+
+    import rotor_peer
 
     watch = rotor_peer.Stopwatch()
     _, _, metal = rotor_peer.model(json.loads(path.read_text(encoding="utf-8")), watch)

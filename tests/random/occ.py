@@ -16,11 +16,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "consumer"))
 
+from OCP.BRepCheck import BRepCheck_Analyzer
+
 import close
 import measure
 import occ
 import topology
-from OCP.BRepCheck import BRepCheck_Analyzer
 
 
 def complaints(step: Path) -> list[str]:
