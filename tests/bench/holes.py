@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Film holes in `rotor.json`: what they cost `coolinggen`, and the same holes cut by OpenCASCADE in one batch.
+"""Film holes in `rotor.json`: what they cost `coolinggen`, and the same holes cut by OpenCASCADE in one
+batch.
 
     tests/.venv/bin/python tests/bench/holes.py [--peer 100 400] [--counts 25 50 100 200 400 800 1600] [--core 0]
 
-Prints processor milliseconds of `inspect --json`, the whole process, least of several runs, for each number of
-holes, and the exponent p of cost ~ N^p that fits the cost above that of the blade without holes. For the numbers
-in --peer the blade is modelled with build123d (rotor_peer.py) and round cutters at the reported places are taken
-from it with one BRepAlgoAPI_Cut; the ratio is that of the whole blade with holes, processor seconds of the script
-over those of coolinggen, alternating on one core.
+Prints processor milliseconds of `inspect --json`, the whole process, least of several runs, for each
+number of holes, and the exponent p of cost ~ N^p that fits the cost above that of the blade without
+holes. For the numbers in --peer the blade is modelled with build123d (rotor_peer.py) and round cutters
+at the reported places are taken from it with one BRepAlgoAPI_Cut; the ratio is that of the whole blade
+with holes, processor seconds of the script over those of coolinggen, alternating on one core.
 """
 
 from __future__ import annotations

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""OpenCASCADE on what `coolinggen-random --out DIR` wrote: every solid valid, closed, of the expected genus and volume.
+"""OpenCASCADE on what `coolinggen-random --out DIR` wrote: every solid valid, closed, of the expected genus
+and volume.
 
     tests/.venv/bin/python tests/random/occ.py DIR [--workers 2]
 
