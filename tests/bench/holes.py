@@ -2,7 +2,7 @@
 """Film holes in `rotor.json`: what they cost `coolinggen`, and the same holes cut by OpenCASCADE in one
 batch.
 
-    tests/.venv/bin/python tests/bench/holes.py [--peer 100 400] [--counts 25 50 100 200 400 800 1600] [--core 0]
+    tests/.venv/bin/python tests/bench/holes.py [--peer 100 400] [--counts 25 50 ... 1600] [--core 0]
 
 Prints processor milliseconds of `inspect --json`, the whole process, least of several runs, for each
 number of holes, and the exponent p of cost ~ N^p that fits the cost above that of the blade without
