@@ -1,4 +1,4 @@
-"""Gmsh imports every STEP file and puts a closed mesh on it. It names volumes and colours surfaces."""
+"""Gmsh imports every STEP file, closes a mesh on it and fills it. It names volumes and colours surfaces."""
 
 from __future__ import annotations
 
@@ -33,3 +33,9 @@ def test_meshes_the_surface_closed(model, gmsh):
         found = gmsh.of(step)
         assert found["triangles"] > 0, part
         assert found["open_sides"] == 0, part
+
+
+def test_fills_the_solids_with_tetrahedra(model, gmsh):
+    for part, step in files(model).items():
+        for share in gmsh.of(step)["filled"]:
+            assert abs(share - 1) < 1e-9, part

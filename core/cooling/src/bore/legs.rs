@@ -22,21 +22,6 @@ const STEPS: usize = 12;
 /// Most borders that one path may cross.
 const MOST_CROSSINGS: usize = 12;
 
-/// How often a step between them may be halved where the hits run far.
-const MOST_HALVINGS: u32 = 10;
-
-/// How far along a path its hits are known.
-#[derive(Clone)]
-struct Walk {
-    /// The leg that the walk is on.
-    leg: Leg,
-    /// The last hit: parameter of the path, parameters in the face, multiple of the ray.
-    t: f64,
-    at: DVec2,
-    along: f64,
-    hit: Hit,
-}
-
 /// Follows the hits of a path over the faces of a target. `start` is a face with parameters near the first hit, and the
 /// multiple of the ray there. Answers with the legs and where the path ends.
 pub(super) fn legs(
@@ -46,55 +31,72 @@ pub(super) fn legs(
 ) -> Result<(Vec<Leg>, (FaceId, Hit)), BoreError> {
     let (face, first) = target.find(start.0, &rays(0.0), start.1, start.2)?;
     let leg = Leg { face, start: (first.at, first.along), to: 1.0, crossing: None };
-    let mut walk = Walk { leg, t: 0.0, at: first.at, along: first.along, hit: first };
-    let mut out = Vec::new();
-    let whole = 1usize << MOST_HALVINGS;
-    let (mut ticks, mut step) = (0, whole);
-    while ticks < STEPS * whole {
-        // Steps end at multiples of their length.
-        let next = ticks + step;
-        match walk_on(target, rays, &walk, next as f64 / (STEPS * whole) as f64, out.len()) {
-            Ok((done, on)) => {
-                out.extend(done);
-                walk = on;
-                ticks = next;
-                while step < whole && ticks.is_multiple_of(2 * step) {
-                    step *= 2;
-                }
-            }
-            Err(_) if step > 1 => step /= 2,
-            Err(error) => return Err(error),
-        }
+    let mut walk = Walk { target, rays, out: Vec::new(), leg, at: 0.0, hit: first };
+    for k in 1..=STEPS {
+        walk.step(k as f64 / STEPS as f64, 0)?;
     }
-    let end = (walk.leg.face, walk.hit);
-    out.push(walk.leg);
-    Ok((out, end))
+    let Walk { mut out, leg, hit, .. } = walk;
+    let face = leg.face;
+    out.push(leg);
+    Ok((out, (face, hit)))
 }
 
-/// One step on: the legs that end within it, and where it leads. `before` legs have ended already.
-fn walk_on(
-    target: &Target<'_>,
-    rays: &dyn Fn(f64) -> Ray,
-    from: &Walk,
-    t: f64,
-    before: usize,
-) -> Result<(Vec<Leg>, Walk), BoreError> {
-    let mut walk = from.clone();
-    let mut done = Vec::new();
-    let mut hit = target.meet(walk.leg.face, &rays(t), walk.at, walk.along).ok_or(BoreError::Misses)?;
-    while !target.holds(walk.leg.face, hit.at) {
-        if before + done.len() == MOST_CROSSINGS {
+/// A path followed so far.
+struct Walk<'w> {
+    target: &'w Target<'w>,
+    rays: &'w dyn Fn(f64) -> Ray,
+    out: Vec<Leg>,
+    /// The leg it is on.
+    leg: Leg,
+    /// Parameter reached, and the hit there.
+    at: f64,
+    hit: Hit,
+}
+
+impl Walk<'_> {
+    /// Goes on to `t`; first to where it may have been over a border in between and come back.
+    fn step(&mut self, t: f64, depth: usize) -> Result<(), BoreError> {
+        const DEEPEST: usize = 6;
+        const LEAST_STEP: f64 = 1e-4;
+        let ray = (self.rays)(t);
+        // A small face, a fillet's, need not go on far enough beyond its border; and hits may run far in one step.
+        let halves = |walk: &mut Self, error: BoreError| {
+            if t - walk.at < LEAST_STEP {
+                return Err(error);
+            }
+            walk.step(0.5 * (walk.at + t), depth)?;
+            walk.step(t, depth)
+        };
+        let Some(hit) = self.target.meet(self.leg.face, &ray, self.hit.at, self.hit.along) else {
+            return halves(self, BoreError::Misses);
+        };
+        if self.target.holds(self.leg.face, hit.at) {
+            let part = self.target.outmost(self.leg.face, [&self.hit, &hit], t - self.at);
+            if let Some(part) = part.filter(|_| depth < DEEPEST) {
+                self.step(self.at + (t - self.at) * part, depth + 1)?;
+                return self.step(t, depth + 1);
+            }
+            (self.at, self.hit) = (t, hit);
+            return Ok(());
+        }
+        if self.out.len() == MOST_CROSSINGS {
             return Err(BoreError::Misses);
         }
-        let crossing = target.crossing(walk.leg.face, rays, (walk.t, t), (walk.at, walk.along), &hit)?;
-        walk.leg.to = crossing.t;
-        walk.leg.crossing = Some(crossing);
-        done.push(walk.leg);
-        walk.leg =
+        let last = (self.hit.at, self.hit.along);
+        let crossing = match self.target.crossing(self.leg.face, self.rays, (self.at, t), last, &hit) {
+            Ok(crossing) => crossing,
+            Err(error) => return halves(self, error),
+        };
+        let next =
             Leg { face: crossing.to, start: (crossing.to_at, crossing.along), to: 1.0, crossing: None };
-        (walk.t, walk.at, walk.along) = (crossing.t, crossing.to_at, crossing.along);
-        hit = target.meet(crossing.to, &rays(t), crossing.to_at, crossing.along).ok_or(BoreError::Misses)?;
+        let before = std::mem::replace(&mut self.leg, next);
+        self.out.push(Leg { to: crossing.t, crossing: Some(crossing), ..before });
+        let ray = (self.rays)(crossing.t);
+        self.hit =
+            (self.target.meet(crossing.to, &ray, crossing.to_at, crossing.along)).ok_or(BoreError::Misses)?;
+        // On the border to the last bit, as `crossing` has it.
+        self.hit.at = crossing.to_at;
+        self.at = crossing.t;
+        self.step(t, depth)
     }
-    (walk.t, walk.at, walk.along, walk.hit) = (t, hit.at, hit.along, hit);
-    Ok((done, walk))
 }

@@ -113,6 +113,30 @@ impl Target<'_> {
         self.left_over(face, at).is_none()
     }
 
+    /// Where between two hits, as a part of the way, the path may come nearest to a border of the face and over it: the
+    /// extremes of the cubics through the hits with their slopes. None where it stays well inside.
+    pub(super) fn outmost(&self, face: FaceId, [from, to]: [&Hit; 2], step: f64) -> Option<f64> {
+        const NEAR: f64 = 1e-3;
+        let ((u0, u1), (v0, v1)) = self.model.face(face).surface.domain();
+        let along = |k: usize, low: f64, high: f64| {
+            let scale = 1.0 / (high - low);
+            let [p, q] = [from, to].map(|h| (h.at[k] - low) * scale);
+            let [m, n] = [from, to].map(|h| h.at_slope[k] * step * scale);
+            // The derivative a x^2 + b x + m of the cubic.
+            let (a, b) = (6.0 * (p - q) + 3.0 * (m + n), 6.0 * (q - p) - 4.0 * m - 2.0 * n);
+            let root = (b * b - 4.0 * a * m).max(0.0).sqrt();
+            let extremes = [2.0 * m / (-b - root), 2.0 * m / (-b + root)];
+            let value = move |x: f64| p + x * (m + x * (0.5 * b + x * a / 3.0));
+            let out = move |x: f64| (-value(x)).max(value(x) - 1.0);
+            let found = extremes.into_iter().filter(|x| (0.01..0.99).contains(x));
+            found
+                .map(move |x| (x, out(x)))
+                .filter(move |(_, o)| *o > -NEAR && *o > (-p).max(p - 1.0).max(-q).max(q - 1.0))
+        };
+        let found = along(0, u0, u1).chain(along(1, v0, v1));
+        found.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(x, _)| x)
+    }
+
     /// Where a family of rays leaves `face` between the parameters `inside` and `outside`, given where it hits the face
     /// there (parameters and multiple of the ray) and beyond the border. The hits on the continued surface bracket the
     /// crossing, also where the rays graze the border (regula falsi, Illinois variant).

@@ -76,7 +76,8 @@ impl Bridged {
     }
 
     /// The offset with its nose opened by the end circle, and where the parameters `ends` of the grid lie on it. Without
-    /// a circle the nose is left as it is.
+    /// a circle the nose is left as the bridge has made it. Whether it keeps the shell's thickness is for the caller to
+    /// see: a bridge over a part that is too sharp cuts it short.
     pub(super) fn opened(
         &self,
         grid: &Grid,
@@ -85,23 +86,10 @@ impl Bridged {
         ends: (f64, f64),
     ) -> Result<(OffsetSection, (f64, f64)), BuildError> {
         const ARC_NODES: u32 = 24;
-        let v = section.stream.v();
-        let too_sharp = || {
-            let refusal = self.offset.nose_refusal(radii.in_chart(section).0);
-            let scale = section.scale(self.offset.camber.front().center);
-            BuildError::refused("/cooling/chambers/0", v, &refusal.in_space(scale, radii.front))
-        };
         let Some(circle) = &self.offset.circle else {
             let ends = (length_at(&self.pairs, ends.0), length_at(&self.pairs, ends.1));
-            return if self.offset.sharp_nose.is_none() {
-                Ok((self.offset.clone(), ends))
-            } else {
-                Err(too_sharp())
-            };
+            return Ok((OffsetSection { sharp_nose: None, ..self.offset.clone() }, ends));
         };
-        if !self.offset.circle_is_clear() {
-            return Err(too_sharp());
-        }
         let outline = &self.offset.outline;
         let reach = REACH * circle.radius;
         let (mut kept, mut nodes) = (Vec::new(), Vec::new());

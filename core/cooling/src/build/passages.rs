@@ -250,15 +250,17 @@ fn closures(stack: &Stack, plan: &Plan, k: usize, i: usize) -> [ClosureKind; 2] 
             fillet: radius / section.scale(line.center),
         })
     };
-    let rounded = |at: glam::DVec2| ClosureKind::Rounded { radius: radius / section.scale(at) };
+    let rounded =
+        |at: glam::DVec2, times: f64| ClosureKind::Rounded { radius: times * radius / section.scale(at) };
     let front = match k {
         0 => match &stack.nose {
             Some(ends) => ClosureKind::Natural { ends: ends[i] },
-            None => rounded(offset.camber.front().center),
+            None => rounded(offset.camber.front().center, 1.0),
         },
         _ => wall(k - 1),
     };
-    let back = if k + 1 == plan.chambers.len() { rounded(offset.camber.back().center) } else { wall(k) };
+    let back =
+        if k + 1 == plan.chambers.len() { rounded(offset.camber.back().center, stack.tail) } else { wall(k) };
     [front, back]
 }
 

@@ -168,9 +168,7 @@ pub(super) fn wall_lines(sections: &[Section], wall: &WallPlan) -> Result<Vec<Wa
         let half_thickness = 0.5 * wall.thickness.at(v) / section.scale(circle.center);
         lines.push(WallLine { center: circle.center, direction, downstream: circle.tangent, half_thickness });
     }
-    let vs: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
-    let centers: Vec<DVec3> = sections.iter().zip(&lines).map(|(s, l)| s.stream.to_space(l.center)).collect();
-    let path = Interpolator::new(3, &vs)?.curve(&centers)?;
+    let path = over_span(sections, |i| sections[i].stream.to_space(lines[i].center))?;
     for (section, line) in sections.iter().zip(&mut lines) {
         let rise = path.derivatives(section.stream.v())[1];
         let (_, dm, dt) = section.stream.to_space_derivatives(line.center);
@@ -181,6 +179,36 @@ pub(super) fn wall_lines(sections: &[Section], wall: &WallPlan) -> Result<Vec<Wa
         line.half_thickness /= cosine;
     }
     Ok(lines)
+}
+
+/// Which of increasing span fractions a smooth curve can be drawn through: the ends, and those between that are not
+/// nearer to a neighbour than it bears.
+pub(super) fn well_apart(v: &[f64]) -> Vec<usize> {
+    const LEAST_GAP: f64 = 0.04;
+    let Some(last) = v.len().checked_sub(1) else { return Vec::new() };
+    let mut kept: Vec<usize> = Vec::new();
+    for i in 0..=last {
+        let clear = kept.last().is_none_or(|&k| v[i] - v[k] >= LEAST_GAP) && v[last] - v[i] >= LEAST_GAP;
+        if clear || i == 0 || i == last {
+            kept.push(i);
+        }
+    }
+    kept
+}
+
+/// The smooth curve over the span through a point of each section, less those too near to a neighbour: turns have
+/// sections so close to those of chambers that a curve through all would have any slope.
+pub(super) fn over_span(
+    sections: &[Section],
+    point: impl Fn(usize) -> DVec3,
+) -> Result<Curve<DVec3>, NurbsError> {
+    let v: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
+    let kept = well_apart(&v);
+    // A cubic needs four.
+    let kept = if kept.len() < 4 { (0..v.len()).collect() } else { kept };
+    let nodes: Vec<f64> = kept.iter().map(|&i| v[i]).collect();
+    let points: Vec<DVec3> = kept.into_iter().map(point).collect();
+    Interpolator::new(3, &nodes)?.curve(&points)
 }
 
 /// Greatest step of the span fraction from section to section.

@@ -115,7 +115,7 @@ fn sharp_nose(
 }
 
 /// Thickness asked for at u: by side, blended with two continuous derivatives round the leading edge.
-fn asked_thickness(grid: &Grid, shell: &ShellPlan, u: f64, v: f64) -> f64 {
+pub(super) fn asked_thickness(grid: &Grid, shell: &ShellPlan, u: f64, v: f64) -> f64 {
     let (start, end) = grid.leading_edge;
     let x = ((u - start) / (end - start)).clamp(0.0, 1.0);
     let blend = x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);

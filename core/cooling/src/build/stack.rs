@@ -2,11 +2,13 @@
 
 use super::bridge::Bridged;
 use super::error::BuildError;
-use super::sections::{Grid, Section, WallLine, span_fractions, wall_lines};
-use super::shell::{EndRadii, OffsetSection, offset_section};
+use super::sections::{Grid, Section, WallLine, span_fractions, wall_lines, well_apart};
+use super::shell::{EndRadii, OffsetSection, asked_thickness, offset_section};
 use super::spans::{Spans, spans};
 use crate::plan::{Plan, ShellPlan};
+use crate::section::circle_of_radius;
 use coolinggen_blade::{Blade, StreamSpace};
+use coolinggen_nurbs::{ParametricCurve, ParametricSurface, Projection};
 use glam::DVec3;
 
 /// Sections at all span fractions at which a chamber has one.
@@ -23,6 +25,8 @@ pub(super) struct Stack {
     /// Where the leading chamber's sides give way to its nose, on the offset of each section; none where an arc that
     /// touches the sides closes it.
     pub(super) nose: Option<Vec<(f64, f64)>>,
+    /// How many times greater than the trailing chamber's fillets the arc is that ends it.
+    pub(super) tail: f64,
 }
 
 impl Stack {
@@ -80,9 +84,11 @@ impl Stack {
             Some(front) if natural_nose(grid, &sections, &offsets, plan, front) => {
                 Some(vec![grid.leading_edge; sections.len()])
             }
-            Some(front) => round_noses(grid, &sections, &mut offsets, front, ends)?,
+            Some(front) => round_noses(blade, grid, &sections, &mut offsets, shell, front, ends)?,
         };
-        Ok(Self { sections, offsets, walls, spans, nose })
+        let back = reach(&spans, plan, plan.chambers.len() - 1);
+        let tail = tail(&sections, &offsets, back, |section| ends(section).in_chart(section).1);
+        Ok(Self { sections, offsets, walls, spans, nose, tail })
     }
 
     /// The middle of the trailing chamber's end on each section.
@@ -94,18 +100,12 @@ impl Stack {
     /// Indices of the sections that chamber `k` is lofted through: those within its span, less those nearer to a
     /// neighbour than a smooth loft bears. The ends stay.
     pub(super) fn of_chamber(&self, k: usize) -> Vec<usize> {
-        const LEAST_GAP: f64 = 0.04;
         let [start, end] = self.spans.chambers[k];
         let v = |i: usize| self.sections[i].stream.v();
-        let mut kept: Vec<usize> = Vec::new();
-        for i in (0..self.sections.len()).filter(|&i| (start..=end).contains(&v(i))) {
-            let clear =
-                kept.last().is_none_or(|&last| v(i) - v(last) >= LEAST_GAP) && end - v(i) >= LEAST_GAP;
-            if clear || v(i) == start || v(i) == end {
-                kept.push(i);
-            }
-        }
-        kept
+        let within: Vec<usize> =
+            (0..self.sections.len()).filter(|&i| (start..=end).contains(&v(i))).collect();
+        let fractions: Vec<f64> = within.iter().map(|&i| v(i)).collect();
+        well_apart(&fractions).into_iter().map(|k| within[k]).collect()
     }
 
     /// Indices of the sections of a turn, away from the chambers.
@@ -158,10 +158,15 @@ fn natural_nose(
 /// in every section, the answer is none: they will close the chamber. Where some touch the leading edge, or a section is
 /// blunter than the arc, all noses run between the same two parameters behind the arcs, and the arcs become part of the
 /// offsets.
+///
+/// # Errors
+/// A nose so sharp that what bridges it would take metal from the shell.
 fn round_noses(
+    blade: &Blade,
     grid: &Grid,
     sections: &[Section],
     offsets: &mut [OffsetSection],
+    shell: &ShellPlan,
     span: [f64; 2],
     radii: impl Fn(&Section) -> EndRadii,
 ) -> Result<Option<Vec<(f64, f64)>>, BuildError> {
@@ -184,8 +189,91 @@ fn round_noses(
     let mut nose = Vec::with_capacity(sections.len());
     for ((section, offset), bridged) in sections.iter().zip(offsets).zip(&bridged) {
         let (opened, at) = bridged.opened(grid, section, radii(section), ends)?;
+        let radius = radii(section).in_chart(section).0;
+        if within(section)
+            && offset.sharp_nose.is_some()
+            && !sound_nose(blade, grid, section, &opened, shell, at, radius)?
+        {
+            let scale = section.scale(opened.camber.front().center);
+            let refusal = offset.nose_refusal(radius).in_space(scale, radii(section).front);
+            return Err(BuildError::refused("/cooling/chambers/0", section.stream.v(), &refusal));
+        }
         *offset = opened;
         nose.push(at);
     }
     Ok(Some(nose))
+}
+
+/// How many times greater than `radius` an arc must be to close the trailing chamber before the sides end: more than 1
+/// where the trailing edge is so blunt that the arc asked for would touch it. One factor for the whole span, or the
+/// chamber's end would bend where it sets in.
+fn tail(
+    sections: &[Section],
+    offsets: &[OffsetSection],
+    span: [f64; 2],
+    radius: impl Fn(&Section) -> f64,
+) -> f64 {
+    let within = |section: &Section| (span[0]..=span[1]).contains(&section.stream.v());
+    let factors =
+        sections.iter().zip(offsets).filter(|(section, _)| within(section)).map(|(section, offset)| {
+            let (back, radius) = (offset.camber.back(), radius(section));
+            let (low, high) = offset.outline.domain();
+            let fits = circle_of_radius(&offset.outline, back, radius)
+                .is_none_or(|circle| circle.pressure >= low && circle.suction <= high);
+            if fits { 1.0 } else { back.radius / radius }
+        });
+    factors.fold(1.0, f64::max)
+}
+
+/// Whether the nose of an outline between two of its parameters is nowhere sharper than half the fillet radius and keeps
+/// the shell's thickness in space, but for the little that bridges cost.
+fn sound_nose(
+    blade: &Blade,
+    grid: &Grid,
+    section: &Section,
+    opened: &OffsetSection,
+    shell: &ShellPlan,
+    (start, end): (f64, f64),
+    radius: f64,
+) -> Result<bool, BuildError> {
+    const SAMPLES: u32 = 40;
+    const LEAST_SHARE: f64 = 0.99;
+    let v = section.stream.v();
+    for i in 0..=SAMPLES {
+        let u = start + (end - start) * f64::from(i) / f64::from(SAMPLES);
+        let point = section.stream.to_space(opened.outline.curve().point(u));
+        let foot = nearest_foot(blade, grid, section, point)?;
+        // Round the leading edge the shell may be as thin as its thinner side.
+        let asked = if (grid.leading_edge.0..=grid.leading_edge.1).contains(&foot.u) {
+            shell.pressure_side.at(v).min(shell.suction_side.at(v))
+        } else {
+            asked_thickness(grid, shell, foot.u, v)
+        };
+        let least = LEAST_SHARE * asked;
+        if foot.distance < least || opened.outline.curvature(u) * radius >= 2.0 {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// The foot of a point behind the leading edge on the blade, with u as the grid has it there: negative on the pressure
+/// side.
+fn nearest_foot(
+    blade: &Blade,
+    grid: &Grid,
+    section: &Section,
+    point: DVec3,
+) -> Result<Projection, BuildError> {
+    let (start, end) = grid.leading_edge;
+    let reach = end - start;
+    let about = (grid.nodes.iter().zip(&section.blade_v))
+        .filter(|(u, _)| (start - reach..=end + reach).contains(*u))
+        .min_by(|a, b| {
+            let distance = |(u, w): (&f64, &f64)| blade.surface.point(u.rem_euclid(1.0), *w).distance(point);
+            distance(*a).total_cmp(&distance(*b))
+        });
+    let (u, w) = about.map_or((grid.nose, 0.5), |(u, w)| (*u, *w));
+    let foot = blade.closest(point, (u, w))?;
+    Ok(Projection { u: if foot.u > 0.5 { foot.u - 1.0 } else { foot.u }, ..foot })
 }

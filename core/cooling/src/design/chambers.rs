@@ -64,7 +64,8 @@ pub struct Chamber {
     #[schemars(extend("unit" = "span fraction", "items" = {"type": "number", "minimum": 0.0, "maximum": 1.0}))]
     pub span: Option<[f64; 2]>,
     /// Radius of the fillets at its walls and of its rounded ends, mm. Round the leading edge the leading chamber
-    /// follows the shell, unless it would be sharper than half this radius.
+    /// follows the shell, unless it would be sharper than half this radius. Where an arc of this radius would end the
+    /// trailing chamber only within a blunt trailing edge, the arc is as much greater as ends it before.
     #[schemars(extend("unit" = "mm", "minimum" = 0.01, "maximum" = 1000.0))]
     pub fillet_radius: LawSpec,
 }

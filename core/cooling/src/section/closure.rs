@@ -57,6 +57,11 @@ fn rounded(outline: &Outline, camber: &Camber, radius: f64, end: End) -> Result<
         return Err(vanishes());
     }
     let circle = circle_of_radius(outline, near, radius).ok_or_else(vanishes)?;
+    // Beyond the outline's ends there is no shell.
+    let (low, high) = outline.domain();
+    if circle.pressure < low || circle.suction > high {
+        return Err(Refusal::NoInscribedCircle);
+    }
     let (a, b) = (outline.frame(circle.suction).point, outline.frame(circle.pressure).point);
     let arc = match end {
         End::Front => Segment::arc(circle.center, b, a, Some(-circle.tangent)),

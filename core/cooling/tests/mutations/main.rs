@@ -9,6 +9,7 @@ mod bases;
 mod draw;
 mod judge;
 mod mutate;
+mod sound;
 
 use draw::Draw;
 use judge::{Outcome, judge};

@@ -98,7 +98,18 @@ impl Hole<'_> {
                 let exit = rounded_rectangle(end, low, high, corner);
                 let size = high - low;
                 let area = size.x * size.y - (4.0 - PI) * corner * corner;
-                let sections = vec![stretched_circle(-length, r), stretched_circle(start, r), exit];
+                let mut sections = vec![stretched_circle(-length, r), stretched_circle(start, r)];
+                // Ruled on beyond the exit the corners would go on shrinking; where too little of them would be left at
+                // the downstream end, they have their size from halfway on.
+                let farthest =
+                    (r - start * forward / (end - start)) / (alpha.tan() - forward / (end - start));
+                let farthest = if farthest > 0.0 { farthest.min(length) } else { length };
+                let beyond = corner + (corner - r) * (farthest - end) / (end - start);
+                if beyond < 0.5 * corner {
+                    let (low, high) = (0.5 * (low + DVec2::splat(-r)), 0.5 * (high + DVec2::splat(r)));
+                    sections.push(rounded_rectangle(0.5 * (start + end), low, high, corner));
+                }
+                sections.push(exit);
                 // On a flat wall the side walls break out up to where the downstream wall begins.
                 let (lateral, forward) =
                     (lateral_expansion_deg.to_radians().tan(), forward_expansion_deg.to_radians().tan());

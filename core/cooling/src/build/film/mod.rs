@@ -98,7 +98,11 @@ fn drill_hole(
     let face = blank.outer_face(hole.at.at).ok_or_else(leaves)?;
     let outer = Mouth { face, at: hole.at.at, z: 0.0 };
     let path = format!("film/{}/{:03}", hole.row.name, hole.number);
-    let stages: &[&str] = if feed.shape.sections.len() > 2 { &["metering", "diffuser"] } else { &["bore"] };
+    let stages: &[&str] = match feed.shape.sections.len() {
+        2 => &["bore"],
+        3 => &["metering", "diffuser"],
+        _ => &["metering", "transition", "diffuser"],
+    };
     let style = style::film();
     let names = BoreNames { path: &path, stages, style: &style };
     let exits = blank

@@ -6,12 +6,12 @@ mod walls;
 
 use super::blank::Blank;
 use super::error::BuildError;
-use super::sections::Section;
+use super::sections::{Section, over_span};
 use crate::bore::Drill;
 use crate::plan::SlotRowPlan;
 use coolinggen_blade::{Fault, Region};
 use coolinggen_brep::{Caster, FaceId};
-use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve};
+use coolinggen_nurbs::{Curve, ParametricCurve};
 use glam::DVec3;
 use slot::Slot;
 use walls::Surroundings;
@@ -52,15 +52,15 @@ struct TrailingEdge {
 
 impl TrailingEdge {
     fn new(sections: &[Section], tails: &[DVec3]) -> Result<Self, BuildError> {
-        let v: Vec<f64> = sections.iter().map(|s| s.stream.v()).collect();
-        let interpolator = Interpolator::new(3, &v)?;
         let edge = |s: &Section| {
             let (start, end) = s.outline.domain();
             let curve = s.outline.curve();
             s.stream.to_space(0.5 * (curve.point(start) + curve.point(end)))
         };
-        let edges: Vec<DVec3> = sections.iter().map(edge).collect();
-        Ok(Self { edge: interpolator.curve(&edges)?, tail: interpolator.curve(tails)? })
+        Ok(Self {
+            edge: over_span(sections, |i| edge(&sections[i]))?,
+            tail: over_span(sections, |i| tails[i])?,
+        })
     }
 
     /// A point near the trailing edge's middle, the direction out of the blade and the one towards the tip.
