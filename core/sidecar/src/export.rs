@@ -30,6 +30,10 @@ pub(crate) enum SolidChoice {
     Metal,
     /// What fills its passages, a solid a passage
     Coolant,
+    /// The hub, where the design asks for it
+    Hub,
+    /// The shroud, where the design asks for it
+    Shroud,
     /// Everything in one file
     Assembly,
 }
@@ -40,6 +44,8 @@ impl SolidChoice {
         match self {
             Self::Metal => ("metal", "metal"),
             Self::Coolant => ("coolant", "coolant/"),
+            Self::Hub => ("hub", "hub"),
+            Self::Shroud => ("shroud", "shroud"),
             Self::Assembly => ("assembly", ""),
         }
     }

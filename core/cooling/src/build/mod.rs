@@ -1,5 +1,6 @@
 //! From plan to B-rep: sections, lofts, caps, solids.
 
+mod annulus;
 mod assemble;
 mod bitangent;
 mod blank;
@@ -14,6 +15,7 @@ mod passages;
 mod pointed;
 mod probe;
 mod radial_holes;
+mod row;
 mod sections;
 mod shell;
 mod sides;
@@ -30,4 +32,5 @@ pub use film::FilmHoleGeometry;
 pub use passages::{PassagePart, PassageParts};
 pub(crate) use probe::Probe;
 pub use radial_holes::RadialHoleGeometry;
+pub use row::add_row;
 pub use slots::SlotGeometry;

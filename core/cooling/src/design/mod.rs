@@ -5,6 +5,7 @@
 
 mod chambers;
 mod film;
+mod pattern;
 mod radial_holes;
 mod read;
 mod schema;
@@ -14,6 +15,7 @@ mod turns;
 
 pub use chambers::{Chamber, Shell, Wall};
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
+pub use pattern::{AnnulusWall, Pattern};
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, faults_against, schema_faults};
 pub use slots::SlotRow;
@@ -48,6 +50,9 @@ pub struct Design {
     /// What is inside; a blade without it is exported solid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cooling: Option<Cooling>,
+    /// The row that the blade is one of; without it, one blade alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pattern: Option<Pattern>,
 }
 
 /// What is inside the blade.
