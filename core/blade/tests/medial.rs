@@ -236,7 +236,7 @@ fn tables_without_a_tip_are_refused() {
 
 #[test]
 fn a_medial_propeller_ends_in_its_tip() {
-    let (_, blade) = built(&sample(include_str!("../../../tests/bench/medial/propeller.json")));
+    let (_, blade) = built(&sample(include_str!("../../../samples/medial-propeller.json")));
     let tip = blade.surface.tip().unwrap();
     assert!((tip.x - 10.0).abs() < 1e-6 && (tip.y.hypot(tip.z) - 60.0).abs() < 1e-4, "{tip}");
     assert!(gap(&blade) < 1e-11);
@@ -246,5 +246,30 @@ fn a_medial_propeller_ends_in_its_tip() {
     let normal = crosses.max_by(|a, b| a.length().total_cmp(&b.length())).unwrap().normalize();
     for (u, d) in around(200).iter().zip(rates) {
         assert!(d.dot(normal).abs() < 1e-8 * d.length(), "{u} {:e}", d.dot(normal) / d.length());
+    }
+}
+
+#[test]
+fn sides_do_not_change_places_at_the_tip_at_any_tolerance() {
+    let samples = [
+        include_str!("../../../samples/propeller.json"),
+        include_str!("../../../samples/medial-propeller.json"),
+    ];
+    for (text, tolerance) in samples.iter().flat_map(|s| [5e-4, 2e-3, 2e-2].map(|t| (s, t))) {
+        let mut design = sample(text);
+        design["blade"]["skin"] = json!({ "tolerance": tolerance });
+        let (_, blade) = built(&design);
+        assert!(blade.fit.greatest_distance_mm <= tolerance);
+        // A leading edge of its own would be a sliver there.
+        assert!(blade.range(Region::LeadingEdge).is_none());
+        for region in [Region::SuctionSide, Region::PressureSide] {
+            let [start, end] = blade.range(region).unwrap();
+            let at = |i: u32| start + (end - start) * f64::from(i) / 400.0;
+            let rates: Vec<DVec3> = (0..=400).map(|i| blade.surface.derivatives(at(i), 1.0).v).collect();
+            let turns: Vec<DVec3> = rates.windows(2).map(|r| r[0].cross(r[1])).collect();
+            let whole: DVec3 = turns.iter().sum();
+            // Near the tip the side is the cone over these: it folds where they turn back.
+            assert!(turns.iter().all(|t| t.dot(whole) > 0.0), "{region:?} at {tolerance}");
+        }
     }
 }

@@ -108,7 +108,8 @@ fn what_does_not_fit_is_refused_with_what_would() {
     assert_eq!(refused(&cooled(json!({"count": most + 1}))).pointer, "/pattern/count");
 
     let fault = refused(&propeller(json!({"hub": {"thickness": 31}})));
-    assert_eq!((fault.pointer.as_str(), fault.max), ("/pattern/hub/thickness", Some(30.48)));
+    assert_eq!(fault.pointer, "/pattern/hub/thickness");
+    assert!((fault.max.unwrap() - 30.48).abs() < 1e-12);
 
     let cascade = sample(include_str!("../../../samples/c3x.json"), json!({"count": 2}));
     assert_eq!(refused(&cascade).pointer, "/pattern");
