@@ -1,0 +1,1 @@
+"""The coolinggen workbench: cooled turbine blades as parametric objects."""
