@@ -8,7 +8,7 @@ use super::patch::Patch;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// Exchanges a triangle; a pair of triangles comes by at most so often.
+/// Rounds of exchanges; a round looks at the triangles that the last one touched.
 const ROUNDS: usize = 12;
 /// Cosine between a triangle's normal and the surface's at its corners below which its diagonals are looked at.
 const ASKEW: f64 = 0.5;

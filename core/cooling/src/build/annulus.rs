@@ -161,27 +161,26 @@ fn revolved(
         let [first, last] = if *along { [k, (k + 1) % 4] } else { [(k + 1) % 4, k] };
         for s in 0..SECTORS {
             let [from, to] = [angle(s), angle(s) + angle(1)];
-            let line = |a: DVec2, b: DVec2, domain| straight_pcurve(a, b, domain);
             let coedges = vec![
                 Coedge {
                     edge: arcs[first][s],
                     forward: true,
-                    pcurve: line(DVec2::new(from, low), DVec2::new(to, low), (0.0, 1.0))?,
+                    pcurve: straight_pcurve(DVec2::new(from, low), DVec2::new(to, low), (0.0, 1.0))?,
                 },
                 Coedge {
                     edge: meridians[k][(s + 1) % SECTORS],
                     forward: true,
-                    pcurve: line(DVec2::new(to, low), DVec2::new(to, high), (low, high))?,
+                    pcurve: straight_pcurve(DVec2::new(to, low), DVec2::new(to, high), (low, high))?,
                 },
                 Coedge {
                     edge: arcs[last][s],
                     forward: false,
-                    pcurve: line(DVec2::new(from, high), DVec2::new(to, high), (0.0, 1.0))?,
+                    pcurve: straight_pcurve(DVec2::new(from, high), DVec2::new(to, high), (0.0, 1.0))?,
                 },
                 Coedge {
                     edge: meridians[k][s],
                     forward: false,
-                    pcurve: line(DVec2::new(from, low), DVec2::new(from, high), (low, high))?,
+                    pcurve: straight_pcurve(DVec2::new(from, low), DVec2::new(from, high), (low, high))?,
                 },
             ];
             let face = model.add_face(Face {
