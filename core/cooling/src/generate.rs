@@ -1,6 +1,6 @@
 //! The whole way from a design to a measured model.
 
-use crate::build::{BuildError, CooledBlade, build};
+use crate::build::{BuildError, CooledBlade, add_row, build};
 use crate::design::Design;
 use crate::plan::Plan;
 use crate::report::{Report, Timings};
@@ -107,7 +107,10 @@ impl Warm {
         };
         let blade_ms = milliseconds(started);
         let built = begin(Stage::Build)?;
-        let blade = build(&outer.surface, &outer.space, &plan).map_err(refused)?;
+        let mut blade = build(&outer.surface, &outer.space, &plan).map_err(refused)?;
+        if let Some(pattern) = &design.pattern {
+            add_row(&mut blade.model, &outer.surface, &outer.space, pattern).map_err(refused)?;
+        }
         let build_ms = milliseconds(built);
         let measured = begin(Stage::Measure)?;
         let mut report = Report::new(&design.name, &outer.surface, &blade).map_err(refused)?;

@@ -56,7 +56,7 @@ pub(crate) struct GenerateOptions {
     #[arg(long, value_delimiter = ',', default_value = "step,glb")]
     pub(crate) format: Vec<Format>,
     /// Solids to write, by the first part of their names; `assembly` is all of them in one file (STEP and GLB)
-    #[arg(long, value_delimiter = ',', default_value = "metal,insert,coolant,assembly")]
+    #[arg(long, value_delimiter = ',', default_value = "metal,insert,coolant,hub,shroud,assembly")]
     pub(crate) solids: Vec<SolidChoice>,
     /// Greatest distance between mesh and surface, mm
     #[arg(long, default_value_t = 0.02, value_parser = positive)]

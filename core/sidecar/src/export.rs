@@ -32,6 +32,10 @@ pub(crate) enum SolidChoice {
     Insert,
     /// What fills its passages, a solid a passage
     Coolant,
+    /// The hub, where the design asks for it
+    Hub,
+    /// The shroud, where the design asks for it
+    Shroud,
     /// Everything in one file
     Assembly,
 }
@@ -43,6 +47,8 @@ impl SolidChoice {
             Self::Metal => ("metal", "metal"),
             Self::Insert => ("insert", "insert/"),
             Self::Coolant => ("coolant", "coolant/"),
+            Self::Hub => ("hub", "hub"),
+            Self::Shroud => ("shroud", "shroud"),
             Self::Assembly => ("assembly", ""),
         }
     }

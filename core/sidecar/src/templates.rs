@@ -12,4 +12,5 @@ pub(crate) const TEMPLATES: &[(&str, &str)] = &[
     ("kaplan", include_str!("../../../samples/kaplan.json")),
     ("medial-cooled", include_str!("../../../samples/medial-cooled.json")),
     ("propeller", include_str!("../../../samples/propeller.json")),
+    ("medial-propeller", include_str!("../../../samples/medial-propeller.json")),
 ];

@@ -6,7 +6,7 @@ use super::patch::{Fault, Limits, Patch};
 use coolinggen_brep::SurfaceGeometry;
 use glam::DVec2;
 use spade::handles::FixedVertexHandle;
-use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
+use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, PositionInTriangulation, Triangulation};
 use std::collections::HashSet;
 
 /// Rounds of refinement; three or four are the rule.
@@ -66,6 +66,7 @@ pub(crate) fn fill(
         Limits { turn: (DIAGONAL * o.angle()).cos(), shortest: 0.1 * o.chord_mm, close: 0.6 * o.chord_mm };
     for _ in 0..ROUNDS {
         patch.triangles = inside(&cdt);
+        patch.exchange_diagonals();
         let mut faults: Vec<Fault> = Vec::new();
         patch.inspect(
             surface,
@@ -83,8 +84,7 @@ pub(crate) fn fill(
         }
         if !matches!(surface, SurfaceGeometry::Plane(_)) {
             let turned = patch.triangles.iter().enumerate();
-            // Triangles on a side that is one point have no area, and are left out of the mesh.
-            let turned = turned.filter(|&(_, &t)| !patch.is_upright(t) && !patch.vanishes(t));
+            let turned = turned.filter(|&(_, &t)| !patch.is_upright(t));
             faults.extend(turned.map(|(triangle, &t)| Fault {
                 distance: f64::INFINITY,
                 uv: t.iter().map(|&i| patch.uv[i as usize]).sum::<DVec2>() / 3.0,
@@ -99,6 +99,7 @@ pub(crate) fn fill(
         }
     }
     patch.triangles = inside(&cdt);
+    patch.exchange_diagonals();
     Ok(false)
 }
 
@@ -256,9 +257,10 @@ fn refine(
         }
         used[fault.triangle] = true;
         used_sides.extend(sides);
-        let node = patch.uv.len() as u32;
-        let before = cdt.num_vertices();
-        if cdt.insert(map.vertex(fault.uv, node)).is_err() || cdt.num_vertices() == before {
+        let vertex = map.vertex(fault.uv, patch.uv.len() as u32);
+        // An insertion at a vertex would replace it.
+        let taken = matches!(cdt.locate(vertex.position), PositionInTriangulation::OnVertex(_));
+        if taken || cdt.insert(vertex).is_err() {
             continue;
         }
         patch.push(surface, fault.uv);

@@ -9,6 +9,7 @@ mod delaunay;
 mod driver;
 mod edges;
 mod field;
+mod flip;
 mod grading;
 mod patch;
 mod rectangle;

@@ -120,10 +120,9 @@ impl Patch {
         a == b || b == c || c == a
     }
 
-    /// Whether a triangle faces the way the surface does at its corners.
+    /// Whether a triangle faces the way the surface does at each of its corners.
     pub(crate) fn is_upright(&self, t: [u32; 3]) -> bool {
-        let normal: DVec3 = t.iter().map(|&i| self.normals[i as usize]).sum();
-        self.cross(t).dot(normal) > 0.0
+        self.uprightness(t) > 0.0
     }
 
     /// Calls `report` with the greatest fault of each triangle for which `wanted` holds: at its centre, and at the

@@ -50,8 +50,10 @@ const DENSITY: usize = 6;
 const CORRECTIONS: usize = 4;
 /// Lines of constant v.
 const LINES: usize = 48;
-/// Data a side and lines where a tolerance is to be kept.
+/// Least data a side and lines where a tolerance is to be kept.
 const FINE: [usize; 2] = [300, 128];
+/// Step of the differences that give derivatives at the tip.
+const STEP: f64 = 1e-5;
 
 impl Skin {
     /// The skin of a size, beginning with side `first`.
@@ -69,25 +71,26 @@ impl Skin {
             }
             knots_v = knots::optimised(knots_v, &data.v, &data.rows(), &data.ends())?;
         }
-        let surface = data.fit(&knots_u, &knots_v, &places)?;
+        let surface = data.fit(&knots_u, &knots_v, &places, false)?;
         Ok(Self { surface, first, places })
     }
 
     /// The skin beginning with side `first` that is about within `tolerance` (mm) of the sides, its knots inserted
-    /// where they are missed.
+    /// where they are missed. `fineness` times the least data: knots are as dense as the data allow.
     pub(crate) fn within(
         sides: &dyn TwoSided,
         first: usize,
         degree: [usize; 2],
         tolerance: f64,
+        fineness: usize,
     ) -> Result<Self, NurbsError> {
-        let places = Places::new(sides, first, FINE[0]);
-        let data = Data::new(sides, first, &places, FINE[1]);
+        let places = Places::new(sides, first, fineness * FINE[0]);
+        let data = Data::new(sides, first, &places, fineness * FINE[1]);
         // Both directions add to the distance.
         let share = 0.4 * tolerance;
         let knots_u = knots::refined(degree[0], &places.s, &data.columns(), &places.met(), share)?;
         let knots_v = knots::refined(degree[1], &data.v, &data.rows(), &data.ends(), share)?;
-        let surface = data.fit(&knots_u, &knots_v, &places)?;
+        let surface = data.fit(&knots_u, &knots_v, &places, true)?;
         Ok(Self { surface, first, places })
     }
 
@@ -144,6 +147,8 @@ struct Data {
     v: Vec<f64>,
     /// `[around][along]`.
     points: Vec<Vec<DVec3>>,
+    /// Derivatives in v at v = 1, if there is a tip.
+    rates: Vec<DVec3>,
     tip: Option<Tip>,
 }
 
@@ -152,7 +157,14 @@ impl Data {
         let v: Vec<f64> = (0..=lines).map(|j| j as f64 / lines as f64).collect();
         let row = |i: usize| v.iter().map(|&v| side_point(sides, first, places.count, i, v)).collect();
         let points = (0..=2 * places.count).map(row).collect();
-        Self { v, points, tip: sides.tip() }
+        let tip = sides.tip();
+        let rate = |i: usize| {
+            // One-sided, exact for cubics.
+            let at = |k: f64| side_point(sides, first, places.count, i, 1.0 - k * STEP);
+            (at(0.0) * 11.0 - at(1.0) * 18.0 + at(2.0) * 9.0 - at(3.0) * 2.0) / (6.0 * STEP)
+        };
+        let rates = if tip.is_some() { (0..=2 * places.count).map(rate).collect() } else { Vec::new() };
+        Self { v, points, rates, tip }
     }
 
     /// Some lines of constant v.
@@ -173,16 +185,48 @@ impl Data {
         [0, self.v.len() - 1]
     }
 
-    /// The best surface that meets both trailing edges and the leading edge, and a tip with its tangent plane.
-    fn fit(&self, knots_u: &Knots, knots_v: &Knots, places: &Places) -> Result<Surface<DVec3>, NurbsError> {
+    /// The best surface that meets both trailing edges and the leading edge, and a tip with its tangent plane; with the
+    /// derivatives in v there, too, if `rates` are to be met.
+    fn fit(
+        &self,
+        knots_u: &Knots,
+        knots_v: &Knots,
+        places: &Places,
+        rates: bool,
+    ) -> Result<Surface<DVec3>, NurbsError> {
         let (fit_u, values_u) = points_met(knots_u, &places.s, &places.met())?;
-        let (fit_v, values_v) = ends_met(knots_v, &self.v)?;
-        let points: Vec<DVec3> = self.points.iter().flatten().copied().collect();
-        let surface = fit_u.surface(&fit_v, &points, &values_u, &values_v)?;
+        let surface = if rates && self.tip.is_some() {
+            let (fit_v, values_v) = self.tip_met(knots_v)?;
+            let rows = self.points.iter().zip(&self.rates);
+            let points: Vec<DVec3> = rows.flat_map(|(row, rate)| row.iter().chain([rate])).copied().collect();
+            fit_u.surface(&fit_v, &points, &values_u, &values_v)?
+        } else {
+            let (fit_v, values_v) = ends_met(knots_v, &self.v)?;
+            let points: Vec<DVec3> = self.points.iter().flatten().copied().collect();
+            fit_u.surface(&fit_v, &points, &values_u, &values_v)?
+        };
         match &self.tip {
             Some(tip) => self.with_tip(&surface, tip, &fit_u, &values_u, knots_v),
             None => Ok(surface),
         }
+    }
+
+    /// A fit along v that meets both ends and the derivative at the tip, which follows the points of a line as data.
+    ///
+    /// Near the tip the blade is a cone over these derivatives, and at the trailing edge thinner than any tolerance:
+    /// fitted to points alone its sides may change places there.
+    fn tip_met(&self, knots_v: &Knots) -> Result<(LeastSquares, Vec<ConstraintValue>), NurbsError> {
+        let count = self.v.len();
+        let parameters: Vec<f64> = self.v.iter().copied().chain([1.0]).collect();
+        let weights: Vec<f64> = (0..=count).map(|j| if j < count { 1.0 } else { 0.0 }).collect();
+        let constraints = [(0.0, 0), (1.0, 0), (1.0, 1)];
+        let constraints = constraints
+            .into_iter()
+            .map(|(v, order)| Constraint::derivative(knots_v, v, order))
+            .collect::<Result<Vec<_>, _>>()?;
+        let fit = LeastSquares::new(knots_v.clone(), &parameters, Some(&weights), &constraints, None)?;
+        let values = [0, count - 1, count].map(ConstraintValue::Data);
+        Ok((fit, values.to_vec()))
     }
 
     /// The surface with the tangent plane at the tip: heights over it are fitted again, with derivatives in v that are

@@ -223,7 +223,7 @@ fn proposition_1_holds_for_the_final_b_splines() {
         let skin = Skin::new(&sides, 1, size).unwrap();
         joined_at_the_nose(&sides, &skin);
     }
-    joined_at_the_nose(&sides, &Skin::within(&sides, 1, [3, 3], 1e-3).unwrap());
+    joined_at_the_nose(&sides, &Skin::within(&sides, 1, [3, 3], 1e-3, 1).unwrap());
 }
 
 /// The two sides as B-splines of their own: opposite derivatives, one normal and the asked leading edge between them.
@@ -251,7 +251,7 @@ fn nose_point(sides: &Sides, v: f64) -> DVec3 {
 #[test]
 fn sides_of_different_thickness_meet_smoothly() {
     let sides = runner().sides([&[[0.0, 12.0], [1.0, 8.0]], &[[0.0, 7.0], [1.0, 4.0]]]);
-    let skin = Skin::within(&sides, 1, [3, 3], 2e-3).unwrap();
+    let skin = Skin::within(&sides, 1, [3, 3], 2e-3, 1).unwrap();
     joined_at_the_nose(&sides, &skin);
     assert!(skin.deviation(&sides, 61, 17).unwrap().greatest < 5e-3);
 }

@@ -1,5 +1,6 @@
 //! From plan to B-rep: sections, lofts, caps, solids.
 
+mod annulus;
 mod assemble;
 mod bitangent;
 mod blank;
@@ -22,6 +23,7 @@ mod pins;
 mod pointed;
 mod probe;
 mod radial_holes;
+mod row;
 mod sections;
 mod shell;
 mod sides;
@@ -43,4 +45,5 @@ pub use passages::{PassagePart, PassageParts};
 pub use pins::PinGeometry;
 pub(crate) use probe::Probe;
 pub use radial_holes::RadialHoleGeometry;
+pub use row::add_row;
 pub use slots::SlotGeometry;

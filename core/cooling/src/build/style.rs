@@ -66,6 +66,11 @@ pub(super) fn dust_hole() -> Style {
     style("dust_hole", [0.60, 0.45, 0.35])
 }
 
+/// Hub and shroud as solids of their own.
+pub(super) fn annulus() -> Style {
+    style("annulus", [0.36, 0.42, 0.50])
+}
+
 /// Where coolant enters.
 pub(super) fn inlet() -> Style {
     style("coolant/inlet", [0.16, 0.45, 0.85])

@@ -128,7 +128,12 @@ pub(super) fn upright_curve(
 }
 
 /// Parameter v at which the line of constant u meets a stream surface.
-fn meet(surface: &impl ParametricSurface<DVec3>, u: f64, guess: f64, stream: &StreamSurface) -> Option<f64> {
+pub(super) fn meet(
+    surface: &impl ParametricSurface<DVec3>,
+    u: f64,
+    guess: f64,
+    stream: &StreamSurface,
+) -> Option<f64> {
     let (_, (low, high)) = surface.domain();
     let mut v = guess;
     for _ in 0..40 {

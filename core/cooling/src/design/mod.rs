@@ -8,6 +8,7 @@ mod crossovers;
 mod dust_holes;
 mod film;
 mod inserts;
+mod pattern;
 mod pins;
 mod radial_holes;
 mod read;
@@ -21,6 +22,7 @@ pub use crossovers::CrossoverRow;
 pub use dust_holes::DustHole;
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
 pub use inserts::{Insert, InsertSide, JetArray};
+pub use pattern::{AnnulusWall, Pattern};
 pub use pins::PinArray;
 pub use radial_holes::{HolePlacement, RadialHole};
 pub use schema::{design_schema, faults_against, schema_faults};
@@ -56,6 +58,9 @@ pub struct Design {
     /// What is inside; a blade without it is exported solid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cooling: Option<Cooling>,
+    /// The row that the blade is one of; without it, one blade alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pattern: Option<Pattern>,
 }
 
 /// What is inside the blade.

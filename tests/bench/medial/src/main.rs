@@ -32,8 +32,8 @@ const TABLES: [Table; 2] = [
         ],
     },
     Table {
-        name: "Table 2, propeller: paper's box about 100 x 60 x 40, propeller.json beside this x 1.5",
-        design: include_str!("../propeller.json"),
+        name: "Table 2, propeller: paper's box about 100 x 60 x 40, medial-propeller.json x 1.5",
+        design: include_str!("../../../../samples/medial-propeller.json"),
         scale: 1.5,
         rows: [
             ([10, 5], [0.32, 0.21]),

@@ -15,6 +15,9 @@ use glam::DVec3;
 /// Grid of the error that is reported: points a side, lines.
 const GRID: [usize; 2] = [81, 25];
 
+/// What is tried where a tolerance is missed: how many times finer data, and what part of the tolerance.
+const STRICTER: [(usize, f64); 2] = [(2, 0.6), (4, 0.3)];
+
 /// Regions with their ranges of u.
 type Regions = Vec<(Region, [f64; 2])>;
 
@@ -24,8 +27,9 @@ pub(super) struct Finish<'a> {
     pub(super) closing: ClosingSpec,
     /// Index of the suction side.
     pub(super) suction: usize,
-    /// t at which the leading edge ends on each side.
-    pub(super) nose: [f64; 2],
+    /// t at which the leading edge ends on each side; none where the sides meet in it. They do on blades that end in a
+    /// point: there a leading edge of its own would be a sliver, which OpenCASCADE finds to intersect itself.
+    pub(super) nose: Option<[f64; 2]>,
     /// The field to blame where the blade does not reach hub or shroud.
     pub(super) blamed: &'static str,
     /// What to say of how the sides came about.
@@ -39,15 +43,30 @@ pub(super) fn blade(
     space: &StreamSpace,
 ) -> Result<Blade, Vec<Fault>> {
     let (spec, pressure) = (finish.skin, 1 - finish.suction);
-    let skin = match spec.control_points {
+    let measured = |skin: Result<Skin, NurbsError>| {
+        let skin = skin.map_err(failed)?;
+        let deviation = skin.deviation(sides, GRID[0], GRID[1]).map_err(failed)?;
+        Ok::<_, Vec<Fault>>((skin, deviation))
+    };
+    let (skin, deviation) = match spec.control_points {
         Some(counts) => {
             let optimised = spec.knots == KnotsSpec::Optimised;
-            Skin::new(sides, pressure, SkinSize { degree: spec.degree, counts, optimised })
+            measured(Skin::new(sides, pressure, SkinSize { degree: spec.degree, counts, optimised }))?
         }
-        None => Skin::within(sides, pressure, spec.degree, spec.tolerance),
-    }
-    .map_err(failed)?;
-    let deviation = skin.deviation(sides, GRID[0], GRID[1]).map_err(failed)?;
+        None => {
+            let within = |(fineness, share)| {
+                measured(Skin::within(sides, pressure, spec.degree, share * spec.tolerance, fineness))
+            };
+            let mut made = within((1, 1.0))?;
+            for attempt in STRICTER {
+                if made.1.greatest <= spec.tolerance {
+                    break;
+                }
+                made = within(attempt)?;
+            }
+            made
+        }
+    };
     let (count_u, count_v) = skin.surface.counts();
     if spec.control_points.is_none() && !(deviation.greatest <= spec.tolerance) {
         let message = format!(
@@ -57,7 +76,7 @@ pub(super) fn blade(
         let fault = Fault::new("/skin", "no_surface", message);
         return Err(vec![fault.value(spec.tolerance).min(deviation.greatest).unit("mm")]);
     }
-    let nose = [pressure, finish.suction].map(|k| skin.place(k, finish.nose[k]));
+    let nose = [pressure, finish.suction].map(|k| skin.place(k, finish.nose.map_or(0.0, |nose| nose[k])));
     let (closed, regions) = closed(&skin, nose, finish.closing, sides.tip()).map_err(failed)?;
     let surface =
         assemble::reaching(BladeSurface::BSpline(closed), space, &Pointer::root().at(finish.blamed))?;
@@ -80,7 +99,7 @@ pub(super) fn failed(e: NurbsError) -> Vec<Fault> {
     vec![Fault::new("", "no_surface", format!("the parameters make no surface: {e}"))]
 }
 
-/// The closed surface from the start of the leading edge on, with its regions.
+/// The closed surface from the start of the leading edge on, or from that line, with its regions.
 fn closed(
     skin: &Skin,
     nose: [f64; 2],
@@ -109,7 +128,8 @@ fn closed(
     let back = net.restricted_u(0.0, nose[0])?;
     let [a, b, c] = [nose[1] - nose[0], 1.0 - nose[0], 1.0 - nose[0] + part].map(|x| x / total);
     let mut pieces = vec![rebased(&front, (0.0, b))?];
-    let mut regions = vec![(Region::LeadingEdge, [0.0, a]), (Region::SuctionSide, [a, b])];
+    let leading = (a > 0.0).then_some((Region::LeadingEdge, [0.0, a]));
+    let mut regions: Regions = leading.into_iter().chain([(Region::SuctionSide, [a, b])]).collect();
     if let Some(tail) = tail {
         pieces.push(rebased(&tail, (b, c))?);
         regions.push((Region::TrailingEdge, [b, c]));

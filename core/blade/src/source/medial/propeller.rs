@@ -92,19 +92,20 @@ impl PropellerSource {
         let plan = self.plan(space)?;
         let medial = plan.cut_out()?;
         let pace = Pace::new(&medial, &plan.profile, 3, PACE).map_err(failed)?;
-        let length: f64 = (0..200)
-            .map(|i| f64::from(i) / 200.0)
-            .map(|u| medial.point(u, 0.5).distance(medial.point(u + 0.005, 0.5)))
-            .sum();
-        let nose = [plan.profile.nose_end(plan.thickness.at(0.5) / length); 2];
         let suction = suction_side(&medial);
         let notes = vec![
             format!("cut-out function within {:.1e} of the edges", medial.residual),
             format!("pace along the profile within {:.1e} of its mean", pace.residual),
         ];
         let sides = PointedSides { medial, profile: plan.profile, pace, scale: plan.thickness };
-        let finish =
-            Finish { skin: &self.skin, closing: plan.closing, suction, nose, blamed: "thickness", notes };
+        let finish = Finish {
+            skin: &self.skin,
+            closing: plan.closing,
+            suction,
+            nose: None,
+            blamed: "thickness",
+            notes,
+        };
         assembly::blade(&sides, finish, space)
     }
 

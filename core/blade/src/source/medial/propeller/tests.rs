@@ -7,7 +7,7 @@ use serde_json::Value;
 
 fn sample() -> (StreamSpace, PropellerSource) {
     let mut design: Value =
-        serde_json::from_str(include_str!("../../../../../../tests/bench/medial/propeller.json")).unwrap();
+        serde_json::from_str(include_str!("../../../../../../samples/medial-propeller.json")).unwrap();
     design["blade"].as_object_mut().unwrap().remove("kind");
     let space: SpaceSpec = serde_json::from_value(design["space"].clone()).unwrap();
     (space.space(&Pointer::root()).unwrap(), serde_json::from_value(design["blade"].clone()).unwrap())
@@ -89,7 +89,7 @@ fn proposition_2_holds_for_the_final_b_splines() {
     let tip = sides.tip().unwrap();
     let skins = [
         Skin::new(&sides, 1, SkinSize { degree: [2, 2], counts: [20, 10], optimised: true }).unwrap(),
-        Skin::within(&sides, 1, [3, 3], 1e-3).unwrap(),
+        Skin::within(&sides, 1, [3, 3], 1e-3, 1).unwrap(),
     ];
     for skin in skins {
         let nose = skin.place(0, 0.0);

@@ -123,9 +123,8 @@ impl PropellerTableSource {
         }
         let sections = Sections::new(self, profile).map_err(assembly::failed)?;
         sections.check()?;
-        let nose = [sections.nose_end(); 2];
         let finish =
-            Finish { skin: &self.skin, closing, suction: 0, nose, blamed: "rows", notes: Vec::new() };
+            Finish { skin: &self.skin, closing, suction: 0, nose: None, blamed: "rows", notes: Vec::new() };
         assembly::blade(&sections, finish, space)
     }
 

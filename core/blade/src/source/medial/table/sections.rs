@@ -60,12 +60,6 @@ impl Sections {
         })
     }
 
-    /// t at the end of the leading edge.
-    pub(super) fn nose_end(&self) -> f64 {
-        let [chord, .., thickness] = self.at(0.5);
-        self.profile.nose_end(thickness / chord)
-    }
-
     /// Refuses tables whose interpolation has no chord or thickness between rows.
     pub(super) fn check(&self) -> Result<(), Vec<Fault>> {
         for i in 0..200 {

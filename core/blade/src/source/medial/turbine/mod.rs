@@ -96,8 +96,14 @@ impl TurbineSource {
             format!("normals within {:.1e}", sides.medial.normal_residual),
             format!("pace along the profile within {:.1e} of its mean", sides.sides[0].pace.residual),
         ];
-        let finish =
-            Finish { skin: &self.skin, closing: plan.closing, suction, nose, blamed: "thickness", notes };
+        let finish = Finish {
+            skin: &self.skin,
+            closing: plan.closing,
+            suction,
+            nose: Some(nose),
+            blamed: "thickness",
+            notes,
+        };
         assembly::blade(&sides, finish, space)
     }
 
