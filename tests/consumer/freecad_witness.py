@@ -33,7 +33,7 @@ def faulty_faces(shape):
 
 def described(shape, label, colours, judged):
     box = shape.optimalBoundingBox()
-    faults = bop_faults(shape) if judged else {}
+    faults = bop_faults(shape) if judged else None
     return {
         "label": label,
         "kind": shape.ShapeType,
@@ -49,12 +49,12 @@ def described(shape, label, colours, judged):
     }
 
 
-def imported(path):
+def imported(path, too_great):
     """Names and colours come through the Import module: it returns (object, colours face by face).
 
-    The BOP check takes minutes on a blade with turns; the solids of an assembly are those of its parts, which
-    have files of their own."""
-    judged = ".assembly." not in Path(path).name
+    The BOP check takes minutes on a blade with many bores, which has it in long runs alone; the solids of an
+    assembly are those of its parts, which have files of their own."""
+    judged = ".assembly." not in Path(path).name and not too_great
     document = FreeCAD.newDocument("witness")
     coloured = Import.insert(path, document.Name) or []
     colours = {thing.Name: values for thing, values in coloured}
@@ -76,9 +76,9 @@ def main():
     FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Import").SetBool("UseLinkGroup", False)
     paths = json.loads(Path(os.environ["WITNESS_JOBS"]).read_text(encoding="utf-8"))
     with Path(os.environ["WITNESS_ANSWERS"]).open("a", encoding="utf-8") as answers:
-        for path in paths:
+        for path, too_great in paths:
             try:
-                entry = imported(path)
+                entry = imported(path, too_great)
             except Exception:
                 entry = {"error": traceback.format_exc()}
             answers.write(json.dumps({"file": path, **entry}) + "\n")

@@ -62,7 +62,7 @@ def main() -> None:
     gmsh.option.setNumber("General.Verbosity", 1)
     gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", 8)
     with Path(os.environ["WITNESS_ANSWERS"]).open("a", encoding="utf-8") as answers:
-        for path in paths:
+        for path, _ in paths:
             try:
                 entry = meshed(path)
             except Exception:

@@ -15,12 +15,27 @@ import subprocess
 import sys
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
+from typing import NoReturn
+
+import pytest
 
 HERE = Path(__file__).resolve().parent
 
 
 ALONE = 1_000_000  # bytes of a file from which on it has a process of its own
-LIMIT = 900  # seconds for a process: what takes longer is a failure
+GREAT = 5_000_000  # bytes of a file from which on a check takes minutes: some hundred bores
+LONG = bool(os.environ.get("COOLINGGEN_LONG"))  # whether there is time for them, see tests/run
+LIMIT = 7200 if LONG else 900  # seconds for a process: what takes longer is a failure
+
+
+def too_great(step: Path) -> bool:
+    """Whether a file's long checks are left to `tests/run --long`."""
+    return not LONG and step.stat().st_size >= GREAT
+
+
+def leave_to_long(what: object) -> NoReturn:
+    """Skips a test, saying where it is run."""
+    pytest.skip(f"{what}: takes minutes, run by tests/run --long")
 
 
 class Findings:
@@ -31,6 +46,8 @@ class Findings:
 
     def of(self, step: Path) -> dict:
         """What was found for this file, once it is; a fault of the program itself is an assertion error."""
+        if step not in self._coming:
+            leave_to_long(step.name)
         lines, output = self._coming[step].result()
         for entry in map(json.loads, lines.splitlines()):
             if entry.pop("file") == str(step):
@@ -50,7 +67,8 @@ def freecad(steps: list[Path], folder: Path) -> Findings:
 
 def gmsh(steps: list[Path], folder: Path) -> Findings:
     """In a process of its own: Gmsh brings its own OpenCASCADE, which must not meet the one of build123d."""
-    return _ask([sys.executable, str(HERE / "gmsh_witness.py")], steps, folder)
+    small = [step for step in steps if not too_great(step)]
+    return _ask([sys.executable, str(HERE / "gmsh_witness.py")], small, folder)
 
 
 def _ask(command: list[str], steps: list[Path], folder: Path) -> Findings:
@@ -78,7 +96,7 @@ def _work(command: list[str], steps: list[Path], folder: Path) -> tuple[str, str
     """One process: the lines it wrote, and what it said."""
     jobs, answers, home = folder / "jobs.json", folder / "answers.jsonl", folder / "home"
     home.mkdir(parents=True)
-    jobs.write_text(json.dumps([str(step) for step in steps]), encoding="utf-8")
+    jobs.write_text(json.dumps([[str(step), too_great(step)] for step in steps]), encoding="utf-8")
     answers.touch()
     environment = {"WITNESS_JOBS": str(jobs), "WITNESS_ANSWERS": str(answers), "FREECAD_USER_HOME": str(home)}
     said = folder / "output.txt"

@@ -4,7 +4,7 @@
     picture.py OUT.png FILE.glb|FILES.stl [--view glass,cut,coolant] [--cut 0.5] [--azimuth 30]
 
 Views stand side by side: `metal` whole, `glass` with the coolant showing through, `cut` open at a part of its
-height with the coolant rising out of it, `open` without coolant, but with inserts cut off higher up, `coolant` alone.
+height with the coolant rising out of it, `open` without coolant, inserts cut off higher up, `coolant` alone.
 """
 
 from __future__ import annotations
