@@ -225,8 +225,8 @@ fn tail(
     factors.fold(1.0, f64::max)
 }
 
-/// Whether the nose of an outline between two of its parameters is nowhere sharper than half the fillet radius and keeps
-/// the shell's thickness in space, but for the little that bridges cost.
+/// Whether the nose of an outline between two of its parameters is nowhere sharper than a third of the fillet radius, to
+/// which bridges of leaned blades come near, and keeps the shell's thickness in space, but for the little that bridges cost.
 fn sound_nose(
     blade: &Blade,
     grid: &Grid,
@@ -238,6 +238,7 @@ fn sound_nose(
 ) -> Result<bool, BuildError> {
     const SAMPLES: u32 = 40;
     const LEAST_SHARE: f64 = 0.99;
+    const SHARPEST: f64 = 3.0;
     let v = section.stream.v();
     for i in 0..=SAMPLES {
         let u = start + (end - start) * f64::from(i) / f64::from(SAMPLES);
@@ -250,7 +251,7 @@ fn sound_nose(
             asked_thickness(grid, shell, foot.u, v)
         };
         let least = LEAST_SHARE * asked;
-        if foot.distance < least || opened.outline.curvature(u) * radius >= 2.0 {
+        if foot.distance < least || opened.outline.curvature(u) * radius >= SHARPEST {
             return Ok(false);
         }
     }
