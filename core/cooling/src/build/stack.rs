@@ -192,7 +192,7 @@ fn round_noses(
         let radius = radii(section).in_chart(section).0;
         if within(section)
             && offset.sharp_nose.is_some()
-            && !sound_nose(blade, grid, section, &opened, shell, at, radius)?
+            && !sound_nose(blade, grid, section, &opened, shell, at)?
         {
             let scale = section.scale(opened.camber.front().center);
             let refusal = offset.nose_refusal(radius).in_space(scale, radii(section).front);
@@ -225,8 +225,7 @@ fn tail(
     factors.fold(1.0, f64::max)
 }
 
-/// Whether the nose of an outline between two of its parameters is nowhere sharper than a third of the fillet radius, to
-/// which bridges of leaned blades come near, and keeps the shell's thickness in space, but for the little that bridges cost.
+/// Whether the nose of an outline between two of its parameters keeps the shell's thickness in space, but for the little that bridges cost.
 fn sound_nose(
     blade: &Blade,
     grid: &Grid,
@@ -234,11 +233,9 @@ fn sound_nose(
     opened: &OffsetSection,
     shell: &ShellPlan,
     (start, end): (f64, f64),
-    radius: f64,
 ) -> Result<bool, BuildError> {
     const SAMPLES: u32 = 40;
     const LEAST_SHARE: f64 = 0.99;
-    const SHARPEST: f64 = 3.0;
     let v = section.stream.v();
     for i in 0..=SAMPLES {
         let u = start + (end - start) * f64::from(i) / f64::from(SAMPLES);
@@ -251,7 +248,7 @@ fn sound_nose(
             asked_thickness(grid, shell, foot.u, v)
         };
         let least = LEAST_SHARE * asked;
-        if foot.distance < least || opened.outline.curvature(u) * radius >= SHARPEST {
+        if foot.distance < least {
             return Ok(false);
         }
     }
