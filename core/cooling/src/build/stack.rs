@@ -225,7 +225,8 @@ fn tail(
     factors.fold(1.0, f64::max)
 }
 
-/// Whether the nose of an outline between two of its parameters keeps the shell's thickness in space, but for the little that bridges cost.
+/// Whether the nose of an outline between two of its parameters keeps the shell's thickness in space, but for the
+/// little that bridges cost.
 fn sound_nose(
     blade: &Blade,
     grid: &Grid,
