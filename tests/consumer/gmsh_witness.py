@@ -1,4 +1,4 @@
-"""Runs in a process of its own (see witness.py): imports each STEP file into Gmsh and meshes its surface."""
+"""Runs in a process of its own (see witness.py): imports each STEP file into Gmsh and meshes it."""
 
 import json
 import os
@@ -26,7 +26,6 @@ def meshed(path: str) -> dict:
         np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1
     )
     _, times = np.unique(sides, axis=0, return_counts=True)
-    gmsh.model.mesh.generate(3)
     names = (gmsh.model.getEntityName(dimension, tag) for dimension, tag in gmsh.model.getEntities())
     return {
         "volumes": len(volumes),
@@ -35,25 +34,34 @@ def meshed(path: str) -> dict:
         "box": [low.tolist(), high.tolist()],
         "triangles": len(triangles),
         "open_sides": int((times != 2).sum()),
-        "filled": [filled(tag) for _, tag in volumes],
+        "fill": fill(),
         "coloured": sum(gmsh.model.getColor(2, tag)[3] == 255 for _, tag in gmsh.model.getEntities(2)),
         "names": sorted({name for name in names if name}),
     }
 
 
-def filled(tag: int) -> float:
-    """Volume of the tetrahedra in a volume over that inside its triangles: 1 if they fill it."""
+def fill() -> dict:
+    """Fills the volumes with tetrahedra: how many; how many of these are flat or inside out; how many of the
+    outer faces are no triangle of the mesh of the surface, or the other way round; and faces of more than two."""
+    try:
+        gmsh.model.mesh.generate(3)
+    except Exception as error:
+        return {"error": str(error)}
     numbers, coordinates, _ = gmsh.model.mesh.getNodes()
     place = np.zeros((int(numbers.max()) + 1, 3))
     place[numbers.astype(np.int64)] = coordinates.reshape(-1, 3)
-    corners = place[gmsh.model.mesh.getElementsByType(4, tag)[1].reshape(-1, 4).astype(np.int64)]
-    inside = 0.0
-    for _, signed in gmsh.model.getBoundary([(3, tag)], oriented=True):
-        nodes = gmsh.model.mesh.getElementsByType(2, abs(signed))[1].reshape(-1, 3).astype(np.int64)
-        a, b, c = np.moveaxis(place[nodes] - place[1:].mean(0), 1, 0)
-        inside += np.sign(signed) * np.einsum("ij,ij->", a, np.cross(b, c)) / 6
-    edges = corners[:, 1:] - corners[:, :1]
-    return float(np.abs(np.linalg.det(edges)).sum() / 6 / abs(inside)) if len(edges) else 0.0
+    corners = gmsh.model.mesh.getElementsByType(4)[1].reshape(-1, 4).astype(np.int64)
+    edges = place[corners[:, 1:]] - place[corners[:, :1]]
+    faces = np.concatenate([np.delete(corners, k, axis=1) for k in range(4)])
+    unique, times = np.unique(np.sort(faces, axis=1), axis=0, return_counts=True)
+    surface = gmsh.model.mesh.getElementsByType(2)[1].reshape(-1, 3).astype(np.int64)
+    border = {tuple(face) for face in unique[times == 1].tolist()}
+    return {
+        "tetrahedra": len(corners),
+        "inverted": int((np.linalg.det(edges) <= 0).sum()),
+        "unmatched": len(border ^ {tuple(face) for face in np.sort(surface, axis=1).tolist()}),
+        "crowded": int((times > 2).sum()),
+    }
 
 
 def main() -> None:
