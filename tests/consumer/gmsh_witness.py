@@ -42,7 +42,7 @@ def meshed(path: str) -> dict:
 
 def fill() -> dict:
     """Fills the volumes with tetrahedra: how many; how many of these are flat or inside out; how many of the
-    outer faces are no triangle of the mesh of the surface, or the other way round; and faces of more than two."""
+    outer faces are no triangle of the surface's mesh, or the other way round; and faces of more than two."""
     try:
         gmsh.model.mesh.generate(3)
     except Exception as error:
