@@ -10,10 +10,13 @@ use coolinggen_brep::{Coedge, Edge, Face, FaceId, Model};
 use coolinggen_nurbs::ParametricCurve;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// Rounds in which edges are cut finer where a face's border polygon crosses itself; each is a quarter of the
-/// sagitta of the last.
-const ROUNDS: usize = 10;
+/// Rounds in which segments of edges are halved where a face's border crosses itself or comes too near to itself; each is
+/// a quarter of the sagitta of the last.
+const ROUNDS: usize = 12;
+/// Rounds in which that is done for tilted triangles, too, not only for those that are turned over.
+const TILTED: usize = 4;
 /// Cells of a face's grid, or segments of an edge, beyond which tolerances are taken for a mistake.
 const MOST_CELLS: f64 = 2e7;
 
@@ -47,37 +50,59 @@ pub fn tessellate(model: &Model, options: &TessellationOptions) -> Result<Tessel
             uses[coedge.edge.0].push((coedge, field));
         }
     }
-    let mut least = vec![1; model.edges.len()];
-    let mut round = 0;
-    loop {
-        let cut = Cut::new(model, &uses, &least, options);
-        let fill = |(face, (low, high, field)): (&Face, &(DVec2, DVec2, Field))| {
-            fill(face, (*low, *high), field, &cut, options)
+    let mut cut = Cut::new(model, &uses, options);
+    let mut done: Vec<Option<Filled>> = model.faces.iter().map(|_| None).collect();
+    for round in 0.. {
+        // A pole that no refinement straightens up must not cost all rounds.
+        let least = match round {
+            ..TILTED => Some(options.angle().cos()),
+            TILTED..ROUNDS => Some(0.0),
+            _ => None,
         };
-        let filled: Vec<Result<Filled, Refusal>> = model.faces.par_iter().zip(&fields).map(fill).collect();
-        let mut crossing: Vec<usize> = Vec::new();
-        let mut done = Vec::with_capacity(filled.len());
-        for (face, filled) in model.faces.iter().zip(filled) {
-            match filled {
-                Ok(filled) => done.push(filled),
-                Err(Refusal::Crossing(edges)) if round < ROUNDS => crossing.extend(edges),
-                Err(_) => return Err(ExportError::Untriangulable { face: face.name.clone() }),
+        let fill = |(i, filled): (usize, &mut Option<Filled>)| -> Option<Refusal> {
+            if filled.is_some() {
+                return None;
+            }
+            let (face, (low, high, field)) = (&model.faces[i], &fields[i]);
+            match fill(face, (*low, *high), field, &cut, options, least) {
+                Ok(found) => *filled = Some(found),
+                Err(refusal) => return Some(refusal),
+            }
+            None
+        };
+        let refusals: Vec<Option<Refusal>> = done.par_iter_mut().enumerate().map(fill).collect();
+        let mut wanted: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        for (face, refusal) in model.faces.iter().zip(refusals) {
+            match refusal {
+                None => {}
+                Some(Refusal::Coarse(segments)) if round < ROUNDS => {
+                    for (edge, k) in segments {
+                        wanted.entry(edge).or_default().insert(k);
+                    }
+                }
+                Some(_) => return Err(ExportError::Untriangulable { face: face.name.clone() }),
             }
         }
-        if done.len() == model.faces.len() {
-            return assemble(cut, done);
+        if wanted.is_empty() {
+            break;
         }
-        for e in crossing {
-            least[e] = 2 * (cut.parameters[e].len() - 1);
+        for (&edge, segments) in &wanted {
+            cut.halve(model, edge, segments);
         }
-        round += 1;
+        for (face, filled) in model.faces.iter().zip(&mut done) {
+            if face.loops.iter().flat_map(|l| &l.coedges).any(|c| wanted.contains_key(&c.edge.0)) {
+                *filled = None;
+            }
+        }
     }
+    assemble(cut, done.into_iter().flatten().collect())
 }
 
 /// Why a face has no triangles yet.
 enum Refusal {
-    /// Border segments of these edges cross.
-    Crossing(Vec<usize>),
+    /// These segments are too long, as edges and numbers along them: they cross others, or triangles beside them turn
+    /// over.
+    Coarse(Vec<(usize, usize)>),
     /// The border meets itself in a node.
     Touching,
 }
@@ -102,9 +127,9 @@ struct Cut {
 }
 
 impl Cut {
-    fn new(model: &Model, uses: &[Vec<(&Coedge, &Field)>], least: &[usize], o: &TessellationOptions) -> Self {
+    fn new(model: &Model, uses: &[Vec<(&Coedge, &Field)>], o: &TessellationOptions) -> Self {
         let divide = |(i, edge): (usize, &Edge)| {
-            let t = edges::divide(edge, &uses[i], least[i], o);
+            let t = edges::divide(edge, &uses[i], o);
             let inner: Vec<DVec3> = t[1..t.len() - 1].iter().map(|&t| edge.curve.point(t)).collect();
             (t, inner)
         };
@@ -120,6 +145,17 @@ impl Cut {
             out.polylines.push(polyline);
         }
         out
+    }
+
+    /// Cuts these segments of an edge in two, in the middle of their parameters.
+    fn halve(&mut self, model: &Model, edge: usize, segments: &BTreeSet<usize>) {
+        let (parameters, polyline) = (&mut self.parameters[edge], &mut self.polylines[edge]);
+        for &k in segments.iter().rev() {
+            let middle = 0.5 * (parameters[k] + parameters[k + 1]);
+            parameters.insert(k + 1, middle);
+            polyline.insert(k + 1, self.points.len() as u32);
+            self.points.push(model.edges[edge].curve.point(middle));
+        }
     }
 }
 
@@ -140,32 +176,35 @@ struct Filled {
     kept: bool,
 }
 
-/// Triangulates a face; or names the edges whose segments cross.
+/// Triangulates a face; or names the segments of edges that are too long for it: those that cross others, and those beside
+/// which the cosine between a triangle's normal and the surface's is no more than `least`. Of two borders that run side by
+/// side, nearer to each other than chords are to them, the chords may lie the other way round.
 fn fill(
     face: &Face,
     bounds: (DVec2, DVec2),
     field: &Field,
     cut: &Cut,
     o: &TessellationOptions,
+    least: Option<f64>,
 ) -> Result<Filled, Refusal> {
     let polygons = boundary::polygons(face, bounds, &cut.parameters, &cut.polylines);
     let mut patch = Patch::new(&face.surface, &polygons, &cut.points);
     let nodes: Vec<Node> = polygons.into_iter().flatten().collect();
-    let crossing = |starts: Vec<u32>| {
-        let edges = starts.into_iter().map(|n| nodes[n as usize].edge);
-        Refusal::Crossing(edges.filter(|&e| e != usize::MAX).collect())
+    let coarse = |starts: Vec<u32>| {
+        let segments = starts.into_iter().map(|n| nodes[n as usize]);
+        Refusal::Coarse(segments.filter(|n| n.edge != usize::MAX).map(|n| (n.edge, n.segment)).collect())
     };
     let mut kept = true;
     if !rectangle::fill(&mut patch, &face.surface, field, o) {
-        kept = delaunay::fill(&mut patch, &face.surface, field, o).map_err(|unfit| match unfit {
-            delaunay::Unfit::Crossing(starts) => crossing(starts),
+        kept = delaunay::fill(&mut patch, &face.surface, field, o, least).map_err(|unfit| match unfit {
+            delaunay::Unfit::Coarse(starts) => coarse(starts),
             delaunay::Unfit::Touching => Refusal::Touching,
         })?;
     }
     // Too coarse a border encloses nothing, or the wrong side.
     let loose = patch.loose_border();
     if !loose.is_empty() {
-        return Err(crossing(loose));
+        return Err(coarse(loose));
     }
     Ok(Filled { nodes, patch, kept })
 }
