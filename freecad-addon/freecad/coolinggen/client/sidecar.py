@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 PROTOCOL_VERSION = 1
+STARTING_S = 20.0  #: A program that has not introduced itself after so many seconds is none of ours.
 NAME = "coolinggen.exe" if os.name == "nt" else "coolinggen"
 
 
@@ -43,12 +44,12 @@ class RefusedError(SidecarError):
 
 
 def find(preferred: str = "") -> Path:
-    """The sidecar's binary: the preferred one, the one beside this file, or the one on the path."""
+    """The sidecar's binary: the preferred one, the one in the add-on's folder, or the one on the path."""
     if preferred:
         if not Path(preferred).is_file():
             raise MissingError(f"there is no coolinggen at {preferred}: look at the preferences")
         return Path(preferred)
-    bundled = Path(__file__).parent / "bin" / NAME
+    bundled = Path(__file__).parent.parent / "bin" / NAME
     if bundled.is_file():
         return bundled
     found = shutil.which(NAME)
@@ -78,12 +79,20 @@ class Sidecar:
         self._ids = itertools.count(1)
         self._waiting: dict[int, queue.Queue] = {}
         self._lock = threading.Lock()
+        # Apart from the other: who writes a long line must not keep the reader from the answers.
+        self._writing = threading.Lock()
         threading.Thread(target=self._read, daemon=True).start()
+        impatience = threading.Timer(STARTING_S, self._process.kill)
+        impatience.start()
         try:
             self.server = self.call("initialize", protocol_version=PROTOCOL_VERSION, client={"name": client})
         except SidecarError as error:
             self.close()
-            raise MissingError(f"{binary} is no sidecar for this add-on: {error}") from error
+            raise MissingError(
+                f"{binary} is no sidecar for this add-on, or too old or too new for it: {error}"
+            ) from error
+        finally:
+            impatience.cancel()
 
     @property
     def alive(self) -> bool:
@@ -139,7 +148,7 @@ class Sidecar:
     def _send(self, message: dict) -> None:
         line = json.dumps({"jsonrpc": "2.0", **message}, allow_nan=False)
         try:
-            with self._lock:
+            with self._writing:
                 self._process.stdin.write(line + "\n")
                 self._process.stdin.flush()
         except (OSError, ValueError) as error:
@@ -165,7 +174,7 @@ class Sidecar:
 
     def close(self) -> None:
         """Ends it."""
-        with self._lock:
+        with self._writing:
             if not self._process.stdin.closed:
                 # It may be dead already.
                 with contextlib.suppress(OSError):
