@@ -9,7 +9,7 @@ import FreeCAD as App
 import Part
 
 from .service import sidecar
-from .sidecar import RefusedError, SidecarError
+from .shared.sidecar import RefusedError, SidecarError
 
 #: Parts of a design in the order of the shape's solids.
 PARTS = ("metal", "insert", "coolant")

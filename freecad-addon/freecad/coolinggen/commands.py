@@ -5,7 +5,7 @@ import FreeCADGui as Gui
 
 from . import blade
 from .service import sidecar
-from .sidecar import SidecarError
+from .shared.sidecar import SidecarError
 
 
 class NewFromTemplate:
