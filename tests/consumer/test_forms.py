@@ -11,7 +11,7 @@ import cli
 
 sys.path.insert(0, str(cli.REPOSITORY / "freecad-addon" / "freecad" / "coolinggen"))
 
-from shared import forms
+from client import forms
 
 #: What has no widget: points by their number or place, nets and knots.
 RAW = {"leading_edge", "trailing_edge", "knots_u", "knots_v", "points", "weights"}
