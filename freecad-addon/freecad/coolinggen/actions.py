@@ -30,7 +30,7 @@ def open_design(document, path: Path) -> panel.Panel:
 
 
 def open_step(document, path: Path) -> panel.Panel:
-    """A panel for a new blade from the surfaces of a STEP file, which FreeCAD reads, too, to see where it is."""
+    """A panel for a new blade from the surfaces of a STEP file; FreeCAD reads it, too, to see where it is."""
     import Part
 
     from . import source
@@ -69,13 +69,6 @@ def groups(obj) -> None:
     faces.groups(obj)
     obj.Document.recompute()
     obj.Document.commitTransaction()
-
-
-def thickness(obj) -> None:
-    """Colours a blade by its wall thickness."""
-    from . import thickness as shown
-
-    shown.paint(obj)
 
 
 def regions(obj) -> None:

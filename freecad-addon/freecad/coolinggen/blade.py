@@ -15,7 +15,11 @@ PARTS = ("metal", "insert", "coolant", "hub", "shroud")
 
 _PROPERTIES = (
     ("Design", "App::PropertyString", "The design, JSON"),
-    ("BladeFile", "App::PropertyFileIncluded", "The STEP file with the blade's surface, kept in the document"),
+    (
+        "BladeFile",
+        "App::PropertyFileIncluded",
+        "The STEP file with the blade's surface, kept in the document",
+    ),
     ("Solids", "App::PropertyLinkListGlobal", "The blade's solids"),
     ("Report", "App::PropertyString", "What was measured, JSON"),
     ("Refusal", "App::PropertyStringList", "What is wrong with the design"),

@@ -120,7 +120,7 @@ COMMANDS = {
         _from_medial,
     ),
     "FromDesign": Command(
-        "Cooled blade from a design...", "A cooled blade from a design's JSON file", "from_design", _from_design
+        "Cooled blade from a design...", "A cooled blade from its JSON file", "from_design", _from_design
     ),
     "Edit": Command(
         "Edit the design", "Edit the blade's design with a live preview", "edit",
@@ -142,10 +142,6 @@ COMMANDS = {
         "Groups of faces for FEM and CfdOF", "Named groups of faces for boundary conditions", "groups",
         lambda: actions.groups(_chosen()), _with_blade,
     ),
-    "Thickness": Command(
-        "Colours by wall thickness", "Colour the coolant's faces by the metal between them and the outer surface",
-        "thickness", lambda: actions.thickness(_chosen()), _with_blade,
-    ),
     "Regions": Command(
         "Colours by region", "Colour every face by its region", "regions",
         lambda: actions.regions(_chosen()), _with_blade,
@@ -160,7 +156,7 @@ COMMANDS = {
 LAYOUT = (
     ("New", "FromSelection", "FromStep", "FromMedial", "FromDesign"),
     ("Edit", "Rebuild", "Report", "SelectFaces", "Groups"),
-    ("Thickness", "Regions", "Export"),
+    ("Regions", "Export"),
 )
 
 

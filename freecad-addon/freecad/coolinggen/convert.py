@@ -62,8 +62,10 @@ def _named(shape: Part.Shape, mesh: Mesh) -> Solid:
 
 
 def read_beside(step: Path, reply: dict, watch: Watch) -> list[Solid]:
-    """As ``read``, in another process; ``reply`` is that of ``model/tessellate``. Without FreeCAD's command it
-    is done here."""
+    """As ``read``, in another process; ``reply`` is that of ``model/tessellate``.
+
+    Without FreeCAD's command it is done here.
+    """
     command = _freecad_command()
     meshes = [decode(solid) for solid in reply["solids"]]
     if command is None:

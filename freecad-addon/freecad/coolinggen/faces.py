@@ -9,8 +9,10 @@ from PySide import QtGui
 
 
 def matching(obj, pattern: str) -> Iterator[tuple[object, str]]:
-    """Solids and faces (``Face12``) of a blade whose names fit ``pattern``: ``*`` stands for anything, and a path
-    stands for all below it."""
+    """Solids and faces (``Face12``) of a blade whose names fit ``pattern``.
+
+    ``*`` stands for anything, and a path for all below it.
+    """
     wanted = pattern.strip().rstrip("/")
     for child in obj.Solids:
         for k, name in enumerate(child.FaceNames):
@@ -63,16 +65,18 @@ def _region(name: str) -> str:
 
 
 def groups(obj) -> object:
-    """A group beside the blade with one feature for each region of each solid: its ``References`` are
-    the faces, as boundary conditions of FEM and CfdOF take them, and follow the names when the design changes."""
+    """A group beside the blade with one feature for each region of each solid.
+
+    Their ``References`` are the faces, as boundary conditions of FEM and CfdOF take them; they follow the
+    names when the design changes.
+    """
     document = obj.Document
-    label = f"{obj.Label} faces"
-    group = next((o for o in obj.InList if getattr(o, "Proxy", None).__class__ is FaceGroups), None)
+    group = next((o for o in obj.InList if isinstance(getattr(o, "Proxy", None), FaceGroups)), None)
     if group is None:
         group = document.addObject("App::DocumentObjectGroupPython", "FaceGroups")
         FaceGroups(group)
         group.Blade = obj
-        group.Label = label
+        group.Label = f"{obj.Label} faces"
     group.Proxy.execute(group)
     return group
 
@@ -84,7 +88,9 @@ class FaceGroups:
         """Gives ``obj`` its properties."""
         obj.Proxy = self
         if "Blade" not in obj.PropertiesList:
-            obj.addProperty("App::PropertyLinkGlobal", "Blade", "CoolingGen", "The blade whose faces are grouped")
+            obj.addProperty(
+                "App::PropertyLinkGlobal", "Blade", "CoolingGen", "The blade whose faces are grouped"
+            )
 
     def execute(self, obj) -> None:
         """One member for each region of each solid."""

@@ -1,5 +1,7 @@
-"""What is asked of the sidecar for a blade: a preview, or solids. No document is touched here, so that it may be
-done beside the window."""
+"""What is asked of the sidecar for a blade: a preview, or solids.
+
+No document is touched here, so that it may be done beside the window.
+"""
 
 import queue
 import tempfile
@@ -17,7 +19,7 @@ PREVIEW_CHORD_MM, PREVIEW_ANGLE_DEG = 0.1, 25.0
 
 @dataclass(frozen=True)
 class Request:
-    """A design and where it belongs: the sidecar's name for its model, and the folder of the files it names."""
+    """A design, the sidecar's name for its model, and the folder of the files that it names."""
 
     model: str
     design: dict

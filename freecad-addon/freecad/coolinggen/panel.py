@@ -9,19 +9,21 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 from . import blade, job
-from .client import form
+from .client import forms, paths
 from .client.latest import Done, Latest
 from .client.sidecar import CancelledError, RefusedError, SidecarError
 from .preview import Preview
 from .service import schema, templates
 from .widgets import sections
 from .widgets.context import Context
-from .widgets.rows import WRONG, Field
+from .widgets.rows import WRONG, Line
 
 #: An edit is previewed when nothing has been edited for so long, ms.
 DEBOUNCE_MS = 150
 #: The worker is asked what happened so often, ms.
 POLL_MS = 30
+#: Width that a form wants, pixels.
+ROOM = 380
 
 
 class Panel:
@@ -32,17 +34,19 @@ class Panel:
         self.placement = placement or (obj.Placement if obj is not None else App.Placement())
         self.design = deepcopy(design)
         self.context = Context(self.design, self._edited, templates())
-        self.node = form.describe(schema())
+        self.fields = [f for f in forms.form(schema()).fields if f.key != "format"]
         self.worker = Latest()
         self.previewed: dict | None = None  #: The design that the preview shows.
         self.faults: list[dict] = []
         self.latency_s = 0.0  #: From the last edit's submission to its preview.
         self._building = False
+        self._edits = obj is not None
         self._asked = self._answered = 0
         self._begun = 0.0
         self._hidden = [] if obj is None else [c for c in obj.Solids if c.ViewObject.Visibility]
         self.form = self._widget()
-        self.preview = Preview(Gui.getDocument(document.Name).ActiveView)
+        self._gui_view = Gui.getDocument(document.Name).ActiveView
+        self.preview = Preview(self._gui_view)
         self.preview.place(self.placement)
         for child in self._hidden:
             child.ViewObject.Visibility = False
@@ -107,35 +111,38 @@ class Panel:
 
     def _sections(self) -> list[sections.Section]:
         """One for each of the design's objects and of the cooling's, one for what is left of both."""
-        made, general = [], [f for f in self.node.fields if f.small]
-        made.append(self._section("General", self.node.help, (), general))
-        for field in self.node.fields:
-            if field.small:
+        general = [field for field in self.fields if sections.simple(field)]
+        made = [self._section("General", "Name and description.", (), general)]
+        for field in self.fields:
+            if sections.simple(field):
                 continue
-            if field.name != "cooling":
-                made.append(self._section(field.title, field.help, (), [field]))
+            if field.key != "cooling":
+                made.append(self._section(field.title, field.description, (), [field]))
                 continue
-            inside = ("cooling",)
-            made += [
-                self._section(f.title, f.help, inside, [f]) for f in field.fields if not f.small
-            ]
-            rest = [f for f in field.fields if f.small]
-            made.append(self._section("Cooling, more", field.help, inside, rest))
+            inside, rest = ("cooling",), []
+            for part in field.shape.fields:
+                if sections.simple(part):
+                    rest.append(part)
+                else:
+                    made.append(self._section(part.title, part.description, inside, [part]))
+            made.append(self._section("Cooling, more", field.description, inside, rest))
         return made
 
-    def _section(self, title: str, told: str, path: form.Path, fields: list[form.Node]) -> sections.Section:
-        paths = [(*path, field.name) for field in fields]
+    def _section(
+        self, title: str, told: str, path: paths.Path, fields: list[forms.Field]
+    ) -> sections.Section:
+        shown = [(*path, field.key) for field in fields]
 
         def make(layout: QtGui.QFormLayout) -> None:
             for field in fields:
-                sections.add(field, (*path, field.name), self.context, layout)
+                sections.add(field, (*path, field.key), self.context, layout)
             self._mark()
 
-        return sections.Section(title, told, paths, self.context, make)
+        return sections.Section(title, told, shown, self.context, make)
 
     def reveal(self, pointer: str) -> None:
         """Opens the form where the design's value at a JSON pointer is, and puts the cursor there."""
-        path = form.path(pointer)
+        path = paths.path(pointer)
         for section in self.sections:
             if any(path[: len(p)] == p for p in section.paths):
                 section.button.setChecked(True)
@@ -152,11 +159,10 @@ class Panel:
 
     @staticmethod
     def _scroll_to(widget: QtGui.QWidget) -> None:
-        parent = widget.parentWidget()
-        while parent is not None and not isinstance(parent, QtGui.QScrollArea):
-            parent = parent.parentWidget()
-        if parent is not None:
-            parent.ensureWidgetVisible(widget)
+        # Not by parentWidget: what it returns takes the widgets of other wrappers with it when it goes.
+        for area in Gui.getMainWindow().findChildren(QtGui.QScrollArea):
+            if area.isAncestorOf(widget):
+                area.ensureWidgetVisible(widget)
 
     # The preview
 
@@ -190,6 +196,8 @@ class Panel:
         return self._asked == self._answered and not self._debounce.isActive() and not self._building
 
     def _news(self) -> None:
+        if not self._usable():
+            return
         for news in self.worker.news():
             kind, design, number = news.tag
             if not isinstance(news, Done):
@@ -213,7 +221,8 @@ class Panel:
         self._tell(f"{self.preview.shown:,} triangles in {self.latency_s:.2f} s")
         self.progress.setValue(0)
         if first:
-            Gui.SendMsgToActiveView("ViewFit")
+            self._gui_view.viewIsometric()
+            self._gui_view.fitAll()
 
     def _failed(self, error: Exception, kind: str) -> None:
         if kind == "build":
@@ -252,12 +261,12 @@ class Panel:
     def _mark(self) -> None:
         """Says at each field what is wrong with it."""
         self.context.unmark()
-        paths = [(form.path(blade.pointer(fault)), fault) for fault in self.faults]
+        places = [(paths.path(blade.pointer(fault)), fault) for fault in self.faults]
         for section in self.sections:
-            section.warn(any(path[: len(p)] == p for path, _ in paths for p in section.paths))
-        for path, fault in paths:
+            section.warn(any(path[: len(p)] == p for path, _ in places for p in section.paths))
+        for path, fault in places:
             _, part = self.context.nearest(path)
-            if isinstance(part, Field | sections._Part):
+            if isinstance(part, Line | sections.Part):
                 part.mark(describe(fault))
 
     # FreeCAD's questions
@@ -316,19 +325,32 @@ class Panel:
         if new:
             Gui.SendMsgToActiveView("ViewFit")
 
-    def _close(self) -> None:
-        """Leaves nothing behind."""
+    def _usable(self) -> bool:
+        """Whether document and widgets are still there; if not, this ends."""
+        try:
+            there = self.document.Name in App.listDocuments() and self.status.text() is not None
+        except (ReferenceError, RuntimeError):
+            there = False
+        if not there:
+            self._stop()
+        return there
+
+    def _stop(self) -> None:
         global active
         self._poll.stop()
         self._debounce.stop()
         self.worker.close()
+        active = None
+
+    def _close(self) -> None:
+        """Leaves nothing behind."""
+        self._stop()
         self.preview.clear()
         for child in self._hidden:
             child.ViewObject.Visibility = True
-        active = None
         gui = Gui.getDocument(self.document.Name)
-        if self.obj is not None and gui.getInEdit() is not None:
-            QtCore.QTimer.singleShot(0, gui.resetEdit)
+        if self._edits and gui.getInEdit() is not None:
+            gui.resetEdit()
 
 
 #: The panel that is open.
@@ -359,7 +381,17 @@ def _open(panel: Panel) -> Panel:
     global active
     active = panel
     Gui.Control.showDialog(panel)
+    _make_room()
     return panel
+
+
+def _make_room() -> None:
+    """Widens the window's part that has the task panel, where it is too narrow for a form."""
+    window = Gui.getMainWindow()
+    docks = [d for d in window.findChildren(QtGui.QDockWidget) if d.isVisible() and d.width() < ROOM]
+    docks = [d for d in docks if d.objectName() in ("Combo View", "Tasks", "Task List")]
+    if docks:
+        window.resizeDocks(docks, [ROOM] * len(docks), QtCore.Qt.Horizontal)
 
 
 def describe(fault: dict) -> str:

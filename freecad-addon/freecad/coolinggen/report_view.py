@@ -1,5 +1,7 @@
-"""The report in a window beside the tree: what is wrong, solids, passages, and every kind of bore. A click on a
-line selects its faces, one on a fault opens its field."""
+"""The report in a window beside the tree: what is wrong, solids, passages, and every kind of bore.
+
+A click on a line selects its faces, one on a fault opens its field.
+"""
 
 import json
 
@@ -7,7 +9,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 from . import blade, faces, panel
-from .client.form import title
+from .client.forms import title
 
 #: Lists of the report that are shown as tables, if it has them.
 TABLES = ("passages", "holes", "slots", "crossovers", "pins", "inserts", "jets", "dust_holes", "radial_holes")
@@ -49,7 +51,10 @@ class ReportView(QtGui.QDockWidget):
 
     def _summary(self, report: dict) -> None:
         wall = report.get("wall_thickness_mm") or {}
-        lines = [("Watertight", report.get("watertight")), ("Edges off faces, mm", report.get("max_edge_deviation_mm"))]
+        lines = [
+            ("Watertight", report.get("watertight")),
+            ("Edges off faces, mm", report.get("max_edge_deviation_mm")),
+        ]
         if wall:
             lines += [("Thinnest wall, mm", wall["min"]), ("There", wall["face"]), ("At, mm", wall["at_mm"])]
         self._add("summary", [{"name": name, "value": value} for name, value in lines if value is not None])
@@ -95,7 +100,13 @@ def _short(value: object) -> bool:
 
 
 def _header(column: str) -> str:
-    for suffix, unit in (("_mm3", "mm\u00b3"), ("_mm2", "mm\u00b2"), ("_mm", "mm"), ("_deg", "\u00b0"), ("_d", "D")):
+    for suffix, unit in (
+        ("_mm3", "mm\u00b3"),
+        ("_mm2", "mm\u00b2"),
+        ("_mm", "mm"),
+        ("_deg", "\u00b0"),
+        ("_d", "D"),
+    ):
         if column.endswith(suffix):
             return f"{title(column.removesuffix(suffix))}, {unit}"
     return title(column)

@@ -1,6 +1,8 @@
-"""Blades that are in a document or in a STEP file already: their B-spline surfaces, and the space they stand in.
+"""Blades that are in a document or in a STEP file already: their B-spline surfaces, and the space they
+stand in.
 
-Surfaces are taken as they are; hub and shroud are laid so that the blade reaches past both, to begin with.
+Surfaces are taken as they are; hub and shroud are laid so that the blade reaches past both, to begin
+with.
 """
 
 import itertools
@@ -14,7 +16,8 @@ import Part
 
 #: Points a border or a surface is looked at in each direction.
 SAMPLES = 40
-#: Hub and shroud keep so much of the blade's height from its ends, and go so much of its length past its edges.
+#: Hub and shroud keep so much of the blade's height from its ends, and go so much of its length past its
+#: edges.
 INSIDE, PAST = 0.02, 0.35
 #: A blade whose inner radius is less than this part of its outer one does not stand round the machine's axis.
 LEAST_RADIUS_RATIO = 0.15
@@ -38,8 +41,9 @@ class Found:
 
 
 def selected() -> Chosen:
-    """A design for the selected faces or solid, in that object's own coordinates. Raises ValueError if there are no
-    B-spline surfaces among them."""
+    """A design for the selected faces or solid, in that object's own coordinates. Raises ValueError if
+    there are no B-spline surfaces among them.
+    """
     import FreeCADGui as Gui
 
     chosen = Gui.Selection.getSelectionEx("", 0)
@@ -73,7 +77,8 @@ def of_shape(faces: list[Part.Face], placement: App.Placement, label: str) -> Ch
         return Chosen(design(name, found), "", placement)
     folder = Path(tempfile.mkdtemp(prefix="coolinggen-"))
     file = folder / f"{name}.step"
-    # A file of its own for the surfaces: in mm whatever the user's preferences, as the shape has no other unit.
+    # A file of its own for the surfaces: in mm whatever the user's preferences, as the shape has no other
+    # unit.
     _write_step(Part.makeCompound(found.faces), file)
     return Chosen(design(name, found, file=str(file)), str(file), placement)
 
@@ -119,8 +124,9 @@ def _closed(surface: Part.BSplineSurface, *, along_u: bool) -> bool:
 
 
 def inline(surface: Part.BSplineSurface) -> dict:
-    """A surface as the design's ``surface`` source: control net, knots and weights as FreeCAD has them; u runs round
-    the blade."""
+    """A surface as the design's ``surface`` source: control net, knots and weights as FreeCAD has them; u
+    runs round the blade.
+    """
     surface = surface.copy()
     for periodic, clamp in (
         (surface.isUPeriodic(), surface.setUNotPeriodic),
@@ -149,10 +155,7 @@ def _knots(values: list[float], times: list[int]) -> list[float]:
 
 def design(name: str, found: Found, *, file: str = "") -> dict:
     """A design with these surfaces and one chamber, as a start."""
-    if file:
-        source = {"kind": "step", "file": Path(file).name}
-    else:
-        source = inline(found.faces[0].Surface)
+    source = {"kind": "step", "file": Path(file).name} if file else inline(found.faces[0].Surface)
     thickness = _shell(found)
     return {
         "format": "coolinggen/1",
@@ -175,8 +178,9 @@ def _shell(found: Found) -> float:
 
 
 def space(points: list[App.Vector]) -> dict:
-    """Where a blade with these points stands: between two cones round the x axis that both lie within it, or, if it
-    is no blade of such a machine, between two planes across z."""
+    """Where a blade with these points stands: between two cones round the x axis that both lie within it,
+    or, if it is no blade of such a machine, between two planes across z.
+    """
     radii = [math.hypot(p.y, p.z) for p in points]
     if min(radii) < LEAST_RADIUS_RATIO * max(radii):
         low, high = min(p.z for p in points), max(p.z for p in points)
@@ -196,8 +200,9 @@ def space(points: list[App.Vector]) -> dict:
 
 
 def _bound(xr: list[tuple[float, float]], *, lower: bool) -> tuple[float, float]:
-    """Slope and height of the line over x that leaves the whole end of a blade on its outer side: the tightest bound
-    of the ends' radii in slices of x."""
+    """Slope and height of the line over x that leaves the whole end of a blade on its outer side: the
+    tightest bound of the ends' radii in slices of x.
+    """
     begin, end = min(x for x, _ in xr), max(x for x, _ in xr)
     width = (end - begin) / 12 or 1.0
     pick = min if lower else max

@@ -18,7 +18,9 @@ def build(wanted: job.Request) -> job.Built:
 
 
 def run(title: str, work: Callable[[Watch], Result]) -> Result:
-    """Does ``work`` in another thread; the window stays alive behind a dialog with progress and a Cancel button."""
+    """Does ``work`` in another thread; the window stays alive behind a dialog with progress and a Cancel
+    button.
+    """
     dialog = QtGui.QProgressDialog(title, "Cancel", 0, 100)
     dialog.setObjectName("CoolingGenProgress")
     dialog.setWindowTitle("CoolingGen")

@@ -19,9 +19,12 @@ def install(home: Path, binary: Path) -> None:
     subprocess.run(package, check=True, stdout=subprocess.DEVNULL)
 
 
-def play(folder: Path, home: Path, scenarios: Path, wanted: str = "", patience_s: float = 90) -> dict:
-    """Plays scenarios of a file in FreeCAD's window; pictures come into ``folder``, the result has for each scenario
-    ``error``, ``notes`` and ``seconds``."""
+def play(
+    folder: Path, home: Path, scenarios: Path, wanted: str = "", patience_s: float = 60, limit_s: float = 400
+) -> dict:
+    """Plays scenarios of a file in FreeCAD's window; pictures come into ``folder``, the result has for
+    each scenario ``error``, ``notes`` and ``seconds``.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     environment = {
         "HOME": str(home),
@@ -54,7 +57,7 @@ def play(folder: Path, home: Path, scenarios: Path, wanted: str = "", patience_s
                 stdout=log,
                 stderr=log,
                 stdin=subprocess.DEVNULL,
-                timeout=1200,
+                timeout=limit_s,
                 check=False,
             )
         finally:
@@ -62,5 +65,7 @@ def play(folder: Path, home: Path, scenarios: Path, wanted: str = "", patience_s
             server.wait()
     told = folder / "told.json"
     if not (folder / "done").is_file():
-        raise AssertionError(f"FreeCAD ended early:\n{(folder / 'log.txt').read_text(errors='replace')[-3000:]}")
+        raise AssertionError(
+            f"FreeCAD ended early:\n{(folder / 'log.txt').read_text(errors='replace')[-3000:]}"
+        )
     return json.loads(told.read_text(encoding="utf-8"))

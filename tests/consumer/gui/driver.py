@@ -1,7 +1,7 @@
 """Runs inside FreeCAD's window: plays scenarios one after the other and writes down how they went.
 
-A scenario is a generator: it presses what a user would, and yields what it waits for, a function that says whether it
-has come. Between two looks FreeCAD lives on by itself.
+A scenario is a generator: it presses what a user would, and yields what it waits for, a function that
+says whether it has come. Between two looks FreeCAD lives on by itself.
 """
 
 import importlib
@@ -29,13 +29,15 @@ class User:
         self.notes: dict = {}
 
     def run(self, command: str, answer=None) -> None:
-        """Presses the button of a command in its toolbar, if it is enabled; ``answer`` is given to the dialog that
-        it opens."""
+        """Presses the button of a command in its toolbar, if it is enabled; ``answer`` is given to the
+        dialog that it opens.
+        """
         known = Gui.Command.get(f"CoolingGen_{command}")
         text = known.getInfo()["menuText"]
         assert known.isActive(), f"{text} is not to be pressed now"
-        for action in Gui.getMainWindow().findChildren(QtGui.QAction):
-            if action.objectName() == f"CoolingGen_{command}" or action.text().replace("&", "") == text:
+        bar = Gui.getMainWindow().findChild(QtGui.QToolBar, "CoolingGen")
+        for action in bar.actions():
+            if action.text().replace("&", "") == text:
                 # FreeCAD's timer would do so within a third of a second.
                 action.setEnabled(True)
                 if answer is not None:
@@ -69,12 +71,11 @@ class User:
             widget = self.widget(widget)
         lines = [line for line in widget.findChildren(QtGui.QLineEdit) if line.isVisible()]
         line = widget if isinstance(widget, QtGui.QLineEdit) else lines[0]
-        target = line.parentWidget() if isinstance(line.parentWidget(), QtGui.QAbstractSpinBox) else line
         line.selectAll()
         for key in text:
             for kind in (QtCore.QEvent.KeyPress, QtCore.QEvent.KeyRelease):
                 event = QtGui.QKeyEvent(kind, 0, QtCore.Qt.NoModifier, key)
-                QtGui.QApplication.sendEvent(target, event)
+                QtGui.QApplication.sendEvent(line, event)
 
     def press(self, standard: str) -> None:
         """Presses OK or Cancel of the task panel."""
@@ -129,8 +130,11 @@ class Player(QtCore.QObject):
         self.busy = False
 
     def look(self) -> None:
-        # A scenario's own step may run an event loop.
+        # A scenario's own step may run an event loop, that of a dialog: which must not wait for ever.
         if self.busy:
+            dialog = QtGui.QApplication.activeModalWidget()
+            if dialog is not None and time.monotonic() - self.since > PATIENCE_S:
+                dialog.reject()
             return
         self.busy = True
         try:

@@ -19,7 +19,7 @@ class Face:
 
 @dataclass(frozen=True)
 class Mesh:
-    """The mesh of a solid: ``vertices`` and ``normals`` are x, y, z, x, ..., ``triangles`` three indices each."""
+    """The mesh of a solid: ``vertices`` and ``normals`` are x, y, z, x, ..., ``triangles`` three indices."""
 
     name: str
     vertices: array.array

@@ -1,10 +1,7 @@
 """Laws along the span, and tables of points."""
 
-from dataclasses import replace
-
 from PySide import QtCore, QtGui
 
-from ..client import form
 from .simple import Editor, NumberEditor
 
 
@@ -22,16 +19,16 @@ class TableEditor(Editor):
     #: More rows than this are shown as a grid of plain numbers.
     FEW = 12
 
-    def __init__(self, node: form.Node, least: int = 0):
-        super().__init__(node)
+    def __init__(self, columns: int, unit: str, least: int = 0):
+        super().__init__()
+        self.columns, self.unit = columns, unit
         self._rows: list[list[float]] = []
         self._least = least
         self._grid: QtGui.QWidget | None = None
 
-    def columns(self) -> list[form.Node]:
-        """What stands in each column."""
-        plain = replace(self.node, kind="number", minimum=None, maximum=None)
-        return [plain] * self.node.columns
+    def cells(self) -> list[NumberEditor]:
+        """The widgets of another row."""
+        return [NumberEditor(self.unit, plain=True) for _ in range(self.columns)]
 
     def show_value(self, value: object) -> None:
         self._rows = [list(row) for row in value] if isinstance(value, list) else []
@@ -50,24 +47,26 @@ class TableEditor(Editor):
         grid = QtGui.QGridLayout(widget)
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setSpacing(2)
+        for k in range(self.columns):
+            # A law's values with their units want more room than its span fractions.
+            grid.setColumnStretch(k, 2 + k)
         for i, row in enumerate(self._rows):
-            for k, node in enumerate(self.columns()):
-                cell = NumberEditor(node)
+            for k, cell in enumerate(self.cells()):
                 cell.show_value(row[k] if k < len(row) else 0.0)
                 cell.edited.connect(lambda value, i=i, k=k: self._put(i, k, value))
                 grid.addWidget(cell, i, k)
             away = _button("\u2212", "Take this row away")
             away.setEnabled(len(self._rows) > self._least)
             away.clicked.connect(lambda *_, i=i: self._remove(i))
-            grid.addWidget(away, i, self.node.columns)
+            grid.addWidget(away, i, self.columns)
         more = _button("+", "Another row")
         more.clicked.connect(lambda *_: self._add())
-        grid.addWidget(more, len(self._rows), self.node.columns)
+        grid.addWidget(more, len(self._rows), self.columns)
         return widget
 
     def _many(self) -> QtGui.QWidget:
-        table = QtGui.QTableWidget(len(self._rows), self.node.columns)
-        table.setHorizontalHeaderLabels([f"{k + 1} ({self.node.unit})" for k in range(self.node.columns)])
+        table = QtGui.QTableWidget(len(self._rows), self.columns)
+        table.setHorizontalHeaderLabels([f"{k + 1} {self.unit}" for k in range(self.columns)])
         for i, row in enumerate(self._rows):
             for k, value in enumerate(row):
                 table.setItem(i, k, QtGui.QTableWidgetItem(f"{value:.10g}"))
@@ -93,7 +92,7 @@ class TableEditor(Editor):
         QtCore.QTimer.singleShot(0, self._build)
 
     def _add(self) -> None:
-        last = self._rows[-1] if self._rows else [0.0] * self.node.columns
+        last = self._rows[-1] if self._rows else [0.0] * self.columns
         before = self._rows[-2] if len(self._rows) > 1 else last
         self._rows.append([2 * a - b for a, b in zip(last, before, strict=True)])
         self._tell()
@@ -106,9 +105,8 @@ class TableEditor(Editor):
 class _LawTable(TableEditor):
     """Control points of a law: span fraction, value."""
 
-    def columns(self) -> list[form.Node]:
-        value = replace(self.node, kind="number")
-        return [form.Node("v", "number", minimum=0.0, maximum=1.0), value]
+    def cells(self) -> list[NumberEditor]:
+        return [NumberEditor(fraction=True, plain=True), NumberEditor(self.unit)]
 
     def _add(self) -> None:
         """Another point in the middle of the widest gap."""
@@ -124,14 +122,16 @@ class _LawTable(TableEditor):
 class LawEditor(Editor):
     """A number, or control points over the span fraction."""
 
-    def __init__(self, node: form.Node):
-        super().__init__(node)
+    def __init__(self, unit: str):
+        super().__init__()
         self._value: object = 0.0
-        self.number = NumberEditor(replace(node, kind="number"))
+        self.number = NumberEditor(unit)
         self.number.edited.connect(self._told)
-        self.table = _LawTable(node, least=2)
+        self.table = _LawTable(2, unit, least=2)
         self.table.edited.connect(self._told)
-        self.kind = _button("~", "A value that varies along the span: control points [v, value] of a B-spline")
+        self.kind = _button(
+            "~", "A value that varies along the span: control points [v, value] of a B-spline"
+        )
         self.kind.setCheckable(True)
         self.kind.clicked.connect(self._switch)
         self.line.addWidget(self.number, 1)

@@ -1,8 +1,10 @@
 """A field in a form: its label, its widget, and what is wrong with it."""
 
+from dataclasses import replace
+
 from PySide import QtCore, QtGui
 
-from ..client import form
+from ..client import forms, paths
 from . import simple
 from .context import Context
 from .law import LawEditor, TableEditor
@@ -10,104 +12,115 @@ from .law import LawEditor, TableEditor
 WRONG = "color: #c0392b;"
 
 
-def help_text(node: form.Node) -> str:
+def optional(field: forms.Field) -> bool:
+    """Whether a design may do without the field, with nothing in its place."""
+    return not field.required and field.default is None and not isinstance(field.shape, forms.List)
+
+
+def blank(field: forms.Field) -> object:
+    """What a field begins with."""
+    return forms.blank(field.shape, field.default)
+
+
+def help_text(field: forms.Field) -> str:
     """What a tooltip says: what the field is, its unit, limits and default."""
     facts = []
-    if node.unit:
-        facts.append(f"Unit: {node.unit}")
-    if node.minimum is not None or node.maximum is not None:
-        low = "" if node.minimum is None else f"{node.minimum:g}"
-        high = "" if node.maximum is None else f"{node.maximum:g}"
-        facts.append(f"Range: {low} to {high}")
-    if isinstance(node.default, int | float | str) and not isinstance(node.default, bool):
-        facts.append(f"Default: {node.default}")
-    return f"<p>{node.help}</p><p>{'<br>'.join(facts)}</p><p><i>{node.name}</i></p>"
+    if field.unit:
+        facts.append(f"Unit: {field.unit}")
+    low, high = getattr(field.shape, "minimum", None), getattr(field.shape, "maximum", None)
+    if low is not None and high is not None:
+        facts.append(f"Range: {low:g} to {high:g}")
+    if isinstance(field.default, int | float | str) and not isinstance(field.default, bool):
+        facts.append(f"Default: {field.default}")
+    return f"<p>{field.description}</p><p>{'<br>'.join(facts)}</p><p><i>{field.key}</i></p>"
 
 
-def editor(node: form.Node, context: Context) -> simple.Editor:
-    """The widget of a node that fits on a line."""
-    names = form.names(context.design, form.REFERENCES[node.name]) if node.name in form.REFERENCES else None
-    makers = {
-        "number": lambda: simple.NumberEditor(node),
-        "integer": lambda: simple.IntegerEditor(node),
-        "text": lambda: simple.TextEditor(node, names),
-        "choice": lambda: simple.ChoiceEditor(node),
-        "boolean": lambda: simple.BooleanEditor(node),
-        "row": lambda: simple.RowEditor(node),
-        "words": lambda: simple.RowEditor(node, names),
-        "law": lambda: LawEditor(node),
-        "table": lambda: TableEditor(node),
-        "either": lambda: EitherEditor(node, context),
-    }
-    return makers.get(node.kind, lambda: simple.RawEditor(node))()
+def editor(field: forms.Field, context: Context) -> simple.Editor:
+    """The widget of a field that holds no other fields."""
+    names = (
+        paths.names(context.design, paths.REFERENCES[field.key]) if field.key in paths.REFERENCES else None
+    )
+    match field.shape:
+        case forms.Number(words=words) if words:
+            return WordEditor(field, context)
+        case forms.Number(integer=True):
+            return simple.IntegerEditor()
+        case forms.Number(maximum=high):
+            return simple.NumberEditor(field.unit, fraction=high is not None and high <= 1)
+        case forms.Law():
+            return LawEditor(field.unit)
+        case forms.Tuple(length=length, integer=True):
+            return simple.RowEditor([simple.IntegerEditor() for _ in range(length)], 0)
+        case forms.Tuple(length=length, maximum=high):
+            fraction = high is not None and high <= 1
+            cells = [simple.NumberEditor(field.unit, fraction=fraction) for _ in range(length)]
+            return simple.RowEditor(cells, 0.0)
+        case forms.List(item=forms.Text()) if names is not None:
+            return simple.RowEditor([simple.TextEditor(names) for _ in range(2)], "")
+        case forms.Table(columns=columns):
+            return TableEditor(columns, field.unit)
+        case forms.Choice():
+            return simple.ChoiceEditor(field.shape)
+        case forms.Flag():
+            return simple.BooleanEditor()
+        case forms.Text():
+            return simple.TextEditor(names)
+    return simple.RawEditor(field)
 
 
-class EitherEditor(simple.Editor):
-    """A value of one of several types: ``auto`` or a length, points or a spline."""
+def large(field: forms.Field) -> bool:
+    """Whether its widget wants the whole width."""
+    return isinstance(field.shape, forms.Table | forms.Raw)
 
-    def __init__(self, node: form.Node, context: Context):
-        super().__init__(node)
-        self._context = context
-        self._value: object = None
-        self._shown: simple.Editor | None = None
-        self.box = simple.calm(QtGui.QComboBox())
-        for option in node.options:
-            self.box.addItem(_label(option))
-            self.box.setItemData(self.box.count() - 1, option.help, QtCore.Qt.ToolTipRole)
+
+class WordEditor(simple.Editor):
+    """A number, or a word that stands for one: ``auto``."""
+
+    def __init__(self, field: forms.Field, context: Context):
+        super().__init__()
+        self.words = field.shape.words
+        self.box = simple.narrow(simple.calm(QtGui.QComboBox()))
+        self.box.addItems([*map(forms.title, self.words), "Value"])
+        self.number = editor(replace(field, shape=replace(field.shape, words=())), context)
         self.box.currentIndexChanged.connect(self._switch)
-        self.line.setDirection(QtGui.QBoxLayout.TopToBottom)
+        self.number.edited.connect(self.edited.emit)
         self.line.addWidget(self.box)
+        self.line.addWidget(self.number)
         self.setFocusProxy(self.box)
 
     def show_value(self, value: object) -> None:
-        self._value = value
+        word = isinstance(value, str)
         self.box.blockSignals(True)
-        self.box.setCurrentIndex(form.variant(self.node, value))
+        self.box.setCurrentIndex(self.words.index(value) if value in self.words else len(self.words))
         self.box.blockSignals(False)
-        if self._shown is not None:
-            self.line.removeWidget(self._shown)
-            self._shown.hide()
-            self._shown.deleteLater()
-            self._shown = None
-        option = self.node.options[self.box.currentIndex()]
-        if option.kind == "choice" and len(option.words) == 1:
-            return
-        self._shown = editor(option, self._context)
-        self._shown.show_value(value)
-        self._shown.edited.connect(self._told)
-        self.line.addWidget(self._shown)
-
-    def _told(self, value: object) -> None:
-        self._value = value
-        self.edited.emit(value)
+        self.number.setVisible(not word)
+        if not word:
+            self.number.show_value(value)
 
     def _switch(self, k: int) -> None:
-        self.show_value(form.blank(self.node.options[k]))
-        self._told(self._value)
+        value = self.words[k] if k < len(self.words) else 1.0
+        self.show_value(value)
+        self.edited.emit(value)
 
 
-def _label(option: form.Node) -> str:
-    if option.kind == "choice" and len(option.words) == 1:
-        return form.title(next(iter(option.words)))
-    names = {"number": "Value", "table": "Points", "row": "Point", "object": "B-spline", "integer": "Index"}
-    return names.get(option.kind, option.kind)
-
-
-class Field(QtCore.QObject):
+class Line(QtCore.QObject):
     """A line of a form: label (with a box to tick where the field may be left out), widget, message."""
 
-    def __init__(self, node: form.Node, path: form.Path, context: Context, layout: QtGui.QFormLayout):
+    def __init__(self, field: forms.Field, path: paths.Path, context: Context, layout: QtGui.QFormLayout):
         super().__init__(layout)
-        self.node, self.path, self._context = node, path, context
+        self.field, self.path, self._context = field, path, context
         value = context.get(path)
-        there = value is not form.MISSING and value is not None
-        self.optional = node.nullable
-        self.label = QtGui.QCheckBox(node.title) if self.optional else QtGui.QLabel(node.title)
-        self.label.setToolTip(help_text(node))
-        self.editor = editor(node, context)
-        self.editor.setToolTip(help_text(node))
-        self.editor.setObjectName(form.pointer(path))
-        self.editor.show_value(value if there else form.blank(node))
+        there = value is not paths.MISSING and value is not None
+        self.optional = optional(field)
+        self.label = QtGui.QCheckBox(field.title) if self.optional else QtGui.QLabel(field.title)
+        self.label.setObjectName(f"label:{paths.pointer(path)}")
+        self.label.setToolTip(help_text(field))
+        # Points to pass through have a table; a whole spline has none.
+        spline = isinstance(field.shape, forms.Table) and isinstance(value, dict)
+        self.editor = simple.RawEditor(field) if spline else editor(field, context)
+        self.editor.setToolTip(help_text(field))
+        self.editor.setObjectName(paths.pointer(path))
+        self.editor.show_value(value if there else blank(field))
         self.editor.edited.connect(self._edited)
         if self.optional:
             self.label.setChecked(there)
@@ -117,30 +130,30 @@ class Field(QtCore.QObject):
         self.message.setStyleSheet(WRONG)
         self.message.setWordWrap(True)
         self.message.hide()
-        if node.small and node.kind not in ("table", "raw"):
-            layout.addRow(self.label, self.editor)
-        else:
+        if large(field):
             layout.addRow(self.label)
             layout.addRow(self.editor)
+        else:
+            layout.addRow(self.label, self.editor)
         layout.addRow(self.message)
         context.show(path, self)
 
     def _edited(self, value: object) -> None:
         if self.optional and not self.label.isChecked():
             return
-        there = self._context.get(self.path) is not form.MISSING
-        if not there and not self.node.required and value == self.node.default:
+        there = self._context.get(self.path) is not paths.MISSING
+        if not there and not self.field.required and value == self.field.default:
             return
         self._context.put(self.path, value)
 
     def _ticked(self, there: bool) -> None:
         self.editor.setEnabled(there)
         if there:
-            value = form.blank(self.node)
+            value = blank(self.field)
             self.editor.show_value(value)
             self._context.put(self.path, value)
         else:
-            self._context.put(self.path, form.MISSING)
+            self._context.put(self.path, paths.MISSING)
 
     def mark(self, message: str) -> None:
         """Says what is wrong with the field; nothing is with an empty message."""
@@ -148,6 +161,6 @@ class Field(QtCore.QObject):
         self.message.setVisible(bool(message))
         self.label.setStyleSheet(WRONG if message else "")
 
-    def reveal(self, rest: form.Path) -> QtGui.QWidget:
+    def reveal(self, rest: paths.Path) -> QtGui.QWidget:
         """The widget to look at."""
         return self.editor

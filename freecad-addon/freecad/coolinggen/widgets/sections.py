@@ -1,28 +1,39 @@
 """Objects, lists and variants of a form, and the sections of its first level."""
 
 from copy import deepcopy
+from dataclasses import replace
 
 from PySide import QtCore, QtGui
 
-from ..client import form
+from ..client import forms, paths
 from .context import Context
-from .rows import WRONG, Field, help_text
+from .rows import WRONG, Line, blank, help_text, optional
 from .simple import calm
 
 
-def fill(node: form.Node, path: form.Path, context: Context, layout: QtGui.QFormLayout) -> None:
+def fill(group: forms.Group, path: paths.Path, context: Context, layout: QtGui.QFormLayout) -> None:
     """Puts an object's fields into a form."""
-    for field in node.fields:
-        add(field, (*path, field.name), context, layout)
+    for field in group.fields:
+        add(field, (*path, field.key), context, layout)
 
 
-def add(node: form.Node, path: form.Path, context: Context, layout: QtGui.QFormLayout) -> None:
-    """Puts a node into a form, with all that is in it."""
-    kinds = {"object": ObjectPart, "variants": VariantsPart, "list": ListPart}
-    if node.kind in kinds:
-        layout.addRow(kinds[node.kind](node, path, context))
-    else:
-        Field(node, path, context, layout)
+def add(field: forms.Field, path: paths.Path, context: Context, layout: QtGui.QFormLayout) -> None:
+    """Puts a field into a form, with all that is in it."""
+    match field.shape:
+        case forms.Group():
+            layout.addRow(GroupPart(field, path, context))
+        case forms.Variants():
+            layout.addRow(VariantsPart(field, path, context))
+        case forms.List(item=forms.Group() | forms.Variants()):
+            layout.addRow(ListPart(field, path, context))
+        case _:
+            Line(field, path, context, layout)
+
+
+def simple(field: forms.Field) -> bool:
+    """Whether a field holds no other fields."""
+    item = field.shape.item if isinstance(field.shape, forms.List) else field.shape
+    return not isinstance(item, forms.Group | forms.Variants)
 
 
 def form_layout(widget: QtGui.QWidget) -> QtGui.QFormLayout:
@@ -35,12 +46,14 @@ def form_layout(widget: QtGui.QWidget) -> QtGui.QFormLayout:
     return layout
 
 
-class _Part(QtGui.QWidget):
-    """Something of a form with a heading and a body that is made anew when the design's value changes as a whole."""
+class Part(QtGui.QWidget):
+    """Something of a form with a heading and a body that is made anew when the design's value changes as
+    a whole.
+    """
 
-    def __init__(self, node: form.Node, path: form.Path, context: Context, *, heading: bool = True):
+    def __init__(self, field: forms.Field, path: paths.Path, context: Context, *, heading: bool = True):
         super().__init__()
-        self.node, self.path, self.context = node, path, context
+        self.field, self.path, self.context = field, path, context
         self.box = QtGui.QVBoxLayout(self)
         self.box.setContentsMargins(0, 2, 0, 2)
         self.box.setSpacing(2)
@@ -53,15 +66,15 @@ class _Part(QtGui.QWidget):
         self.box.addWidget(self.message)
         self.body: QtGui.QWidget | None = None
         self.tick: QtGui.QCheckBox | None = None
-        if heading and node.nullable:
-            self.tick = QtGui.QCheckBox(node.title)
-            self.tick.setToolTip(help_text(node))
+        if heading and optional(field):
+            self.tick = QtGui.QCheckBox(field.title)
+            self.tick.setToolTip(help_text(field))
             self.tick.setChecked(isinstance(context.get(path, None), dict | list))
             self.tick.toggled.connect(self._ticked)
             self.head.addWidget(self.tick)
         elif heading:
-            label = QtGui.QLabel(f"<b>{node.title}</b>")
-            label.setToolTip(help_text(node))
+            label = QtGui.QLabel(f"<b>{field.title}</b>")
+            label.setToolTip(help_text(field))
             self.head.addWidget(label)
         context.show(path, self)
 
@@ -71,7 +84,7 @@ class _Part(QtGui.QWidget):
         return self.tick is None or self.tick.isChecked()
 
     def _ticked(self, there: bool) -> None:
-        self.context.put(self.path, form.blank(self.node) if there else form.MISSING)
+        self.context.put(self.path, blank(self.field) if there else paths.MISSING)
         self.rebuild()
 
     def rebuild(self) -> None:
@@ -97,61 +110,63 @@ class _Part(QtGui.QWidget):
         self.message.setText(message)
         self.message.setVisible(bool(message))
 
-    def reveal(self, rest: form.Path) -> QtGui.QWidget:
+    def reveal(self, rest: paths.Path) -> QtGui.QWidget:
         """Shows what is at the path ``rest`` inside, as far as it can, and says which widget that is."""
         return self
 
 
-class ObjectPart(_Part):
+class GroupPart(Part):
     """An object: its fields."""
 
-    def __init__(self, node: form.Node, path: form.Path, context: Context, *, heading: bool = True):
-        super().__init__(node, path, context, heading=heading)
+    def __init__(self, field: forms.Field, path: paths.Path, context: Context, *, heading: bool = True):
+        super().__init__(field, path, context, heading=heading)
         self.rebuild()
 
     def build(self, layout: QtGui.QFormLayout) -> None:
-        fill(self.node, self.path, self.context, layout)
+        fill(self.field.shape, self.path, self.context, layout)
 
 
-class VariantsPart(_Part):
+class VariantsPart(Part):
     """An object of one of several kinds: a box to choose the kind, and its fields."""
 
-    def __init__(self, node: form.Node, path: form.Path, context: Context, *, heading: bool = True):
-        super().__init__(node, path, context, heading=heading)
+    def __init__(self, field: forms.Field, path: paths.Path, context: Context, *, heading: bool = True):
+        super().__init__(field, path, context, heading=heading)
         self.kinds = calm(QtGui.QComboBox())
-        self.kinds.setObjectName(form.pointer((*path, node.tag)))
-        for k, option in enumerate(node.options):
-            self.kinds.addItem(form.title(option.name))
-            self.kinds.setItemData(k, option.help, QtCore.Qt.ToolTipRole)
-        self.kinds.setCurrentIndex(form.variant(node, context.get(path, self._default())))
+        self.kinds.setObjectName(paths.pointer((*path, field.shape.tag)))
+        for k, (word, told, _) in enumerate(field.shape.options):
+            self.kinds.addItem(forms.title(word))
+            self.kinds.setItemData(k, told, QtCore.Qt.ToolTipRole)
+        self.kinds.setCurrentIndex(self._kind())
         self.kinds.currentIndexChanged.connect(self._switch)
         self.head.addWidget(self.kinds, 1)
         self.rebuild()
 
-    def _default(self) -> object:
-        return {} if self.node.default is form.MISSING else self.node.default
+    def _kind(self) -> int:
+        """Which of the kinds the design's value is of."""
+        value = self.context.get(self.path, self.field.default)
+        word = value.get(self.field.shape.tag) if isinstance(value, dict) else None
+        words = [option[0] for option in self.field.shape.options]
+        return words.index(word) if word in words else 0
 
     def _switch(self, k: int) -> None:
-        option = self.node.options[k]
+        """Another kind: fields that it shares with the one before keep their values."""
+        word, _, group = self.field.shape.options[k]
         before = self.context.get(self.path, {})
-        kept = {
-            f.name: before[f.name] for f in option.fields if f.name in before and form.fits(f, before[f.name])
-        }
-        self.context.put(self.path, {self.node.tag: option.name, **form.blank(option), **kept})
+        kept = {f.key: before[f.key] for f in group.fields if f.key in before}
+        self.context.put(self.path, {self.field.shape.tag: word, **forms.blank(group), **kept})
         self.rebuild()
 
     def build(self, layout: QtGui.QFormLayout) -> None:
-        self.kinds.setEnabled(True)
-        fill(self.node.options[self.kinds.currentIndex()], self.path, self.context, layout)
+        fill(self.field.shape.options[self.kinds.currentIndex()][2], self.path, self.context, layout)
 
 
-class ListPart(_Part):
+class ListPart(Part):
     """A list of objects: which one is shown, buttons to add, duplicate and remove, and its fields."""
 
-    def __init__(self, node: form.Node, path: form.Path, context: Context, *, heading: bool = True):
-        super().__init__(node, path, context, heading=heading)
+    def __init__(self, field: forms.Field, path: paths.Path, context: Context, *, heading: bool = True):
+        super().__init__(field, path, context, heading=heading)
         self.items = calm(QtGui.QComboBox())
-        self.items.setObjectName(form.pointer(path))
+        self.items.setObjectName(paths.pointer(path))
         self.items.setSizeAdjustPolicy(QtGui.QComboBox.AdjustToMinimumContentsLength)
         self.head.addWidget(self.items, 1)
         self.buttons = {}
@@ -163,7 +178,7 @@ class ListPart(_Part):
             button = QtGui.QToolButton()
             button.setText(text)
             button.setToolTip(told)
-            button.setObjectName(f"{form.pointer(path)}:{name}")
+            button.setObjectName(f"{paths.pointer(path)}:{name}")
             button.clicked.connect(getattr(self, name))
             self.head.addWidget(button)
             self.buttons[name] = button
@@ -183,7 +198,7 @@ class ListPart(_Part):
             self.items.addItem(self._name(i, value))
         self.items.setCurrentIndex(min(k, len(values) - 1))
         self.items.blockSignals(False)
-        self.buttons["add"].setEnabled(self.node.most is None or len(values) < self.node.most)
+        self.buttons["add"].setEnabled((most := self.field.shape.maximum) is None or len(values) < most)
         for name in ("duplicate", "remove"):
             self.buttons[name].setEnabled(bool(values))
         self.rebuild()
@@ -200,7 +215,7 @@ class ListPart(_Part):
 
     def _insert(self, k: int, value: dict) -> None:
         if "name" in value:
-            value["name"] = form.unused(self._names(), value["name"])
+            value["name"] = paths.unused(self._names(), value["name"] or "new")
         values = list(self._values())
         values.insert(k, value)
         self.context.put(self.path, values)
@@ -208,11 +223,11 @@ class ListPart(_Part):
 
     def add(self, *_) -> None:
         """Adds an item as the samples have it, or a plain one."""
-        made = form.example(self.context.examples, self.path)
-        if made is form.MISSING:
-            made = form.blank(self.node.item)
-        for key, of in form.REFERENCES.items():
-            there = form.names(self.context.design, of)
+        made = paths.example(self.context.examples, self.path)
+        if made is paths.MISSING:
+            made = forms.blank(self.field.shape.item)
+        for key, of in paths.REFERENCES.items():
+            there = paths.names(self.context.design, of)
             if isinstance(made.get(key), str) and made[key] not in there and there:
                 made[key] = there[0]
         self._insert(len(self._values()), made)
@@ -227,20 +242,21 @@ class ListPart(_Part):
         k = self.items.currentIndex()
         values = list(self._values())
         del values[k]
-        self.context.put(self.path, values if values or self.node.required else form.MISSING)
+        self.context.put(self.path, values if values or self.field.required else paths.MISSING)
         self.refresh(k)
 
     def build(self, layout: QtGui.QFormLayout) -> None:
         k = self.items.currentIndex()
         if k < 0:
             return
-        item = self.node.item
-        if item.kind == "variants":
-            layout.addRow(VariantsPart(item, (*self.path, k), self.context, heading=False))
+        item, path = self.field.shape.item, (*self.path, k)
+        if isinstance(item, forms.Variants):
+            field = replace(self.field, shape=item)
+            layout.addRow(VariantsPart(field, path, self.context, heading=False))
         else:
-            fill(item, (*self.path, k), self.context, layout)
+            fill(item, path, self.context, layout)
 
-    def reveal(self, rest: form.Path) -> QtGui.QWidget:
+    def reveal(self, rest: paths.Path) -> QtGui.QWidget:
         if rest and isinstance(rest[0], int) and rest[0] < self.items.count():
             self.items.setCurrentIndex(rest[0])
         return self
@@ -249,7 +265,7 @@ class ListPart(_Part):
 class Section(QtGui.QWidget):
     """A collapsible part of the panel; its body is made when it is first opened."""
 
-    def __init__(self, title: str, told: str, paths: list[form.Path], context: Context, make):
+    def __init__(self, title: str, told: str, paths: list[paths.Path], context: Context, make):
         super().__init__()
         self.paths, self._context, self._make = paths, context, make
         box = QtGui.QVBoxLayout(self)
@@ -286,9 +302,11 @@ class Section(QtGui.QWidget):
     def warn(self, wrong: bool) -> None:
         """Colours the heading."""
         color = " color: #c0392b;" if wrong else ""
-        self.button.setStyleSheet(f"QToolButton {{ font-weight: bold; text-align: left; padding: 3px;{color} }}")
+        self.button.setStyleSheet(
+            f"QToolButton {{ font-weight: bold; text-align: left; padding: 3px;{color} }}"
+        )
 
-    def reveal(self, rest: form.Path) -> QtGui.QWidget:
+    def reveal(self, rest: paths.Path) -> QtGui.QWidget:
         """Opens it."""
         self.button.setChecked(True)
         return self

@@ -5,7 +5,7 @@ import json
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
-from ..client import form
+from ..client.forms import Choice, Field, title
 
 #: Lengths and angles are FreeCAD's quantities, so that they show in the user's units.
 QUANTITIES = {"mm": "mm", "deg": "deg"}
@@ -31,14 +31,20 @@ def calm(widget):
     return widget
 
 
+def narrow(widget):
+    """The widget, content with the little room that a task panel has."""
+    widget.setMinimumWidth(52)
+    widget.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+    return widget
+
+
 class Editor(QtGui.QWidget):
-    """A widget for a value of a node."""
+    """A widget for a value of a field."""
 
     edited = QtCore.Signal(object)
 
-    def __init__(self, node: form.Node):
+    def __init__(self):
         super().__init__()
-        self.node = node
         self.line = QtGui.QHBoxLayout(self)
         self.line.setContentsMargins(0, 0, 0, 0)
         self.line.setSpacing(3)
@@ -49,34 +55,35 @@ class Editor(QtGui.QWidget):
 
 
 class NumberEditor(Editor):
-    """A number: with a unit of FreeCAD's, or without one."""
+    """A number: with a unit of FreeCAD's, or without one. ``fraction``: it runs from 0 to 1."""
 
-    def __init__(self, node: form.Node):
-        super().__init__(node)
+    def __init__(self, unit: str = "", *, fraction: bool = False, plain: bool = False):
+        super().__init__()
         self._quiet = False
-        if node.unit in QUANTITIES:
+        self.quantity = unit in QUANTITIES
+        if self.quantity:
             self.spin = Gui.UiLoader().createWidget("Gui::QuantitySpinBox")
-            self.spin.setProperty("unit", QUANTITIES[node.unit])
+            self.spin.setProperty("unit", QUANTITIES[unit])
             # Wide open: a value beyond the limits is the design's to refuse, with its reason.
             QtCore.QObject.connect(self.spin, QtCore.SIGNAL("valueChanged(double)"), self._told)
-            self.spin.setProperty("singleStep", 0.1 if node.unit == "mm" else 1.0)
+            self.spin.setProperty("singleStep", 0.1 if unit == "mm" else 1.0)
         else:
             self.spin = QtGui.QDoubleSpinBox()
-            self.spin.setDecimals(4)
+            self.spin.setDecimals(3 if fraction else 4)
             self.spin.setRange(-1e9, 1e9)
-            self.spin.setSingleStep(0.01 if node.maximum is not None and node.maximum <= 1 else 0.1)
+            self.spin.setSingleStep(0.01 if fraction else 0.1)
             self.spin.valueChanged.connect(self._told)
-            if node.unit == "diameters":
+            if unit == "diameters":
                 self.spin.setSuffix(" D")
-        calm(self.spin)
-        self.spin.setMinimumWidth(60)
+        if plain:
+            self.spin.setButtonSymbols(QtGui.QAbstractSpinBox.NoButtons)
+        narrow(calm(self.spin))
         self.line.addWidget(self.spin)
         self.setFocusProxy(self.spin)
 
     def value(self) -> float:
         """What is shown: mm, degrees or a plain number."""
-        quantity = self.node.unit in QUANTITIES
-        return float(self.spin.property("rawValue")) if quantity else self.spin.value()
+        return float(self.spin.property("rawValue")) if self.quantity else self.spin.value()
 
     def _told(self, *_) -> None:
         if not self._quiet:
@@ -85,7 +92,7 @@ class NumberEditor(Editor):
     def show_value(self, value: object) -> None:
         self._quiet = True
         number = float(value) if isinstance(value, int | float) else 0.0
-        if self.node.unit in QUANTITIES:
+        if self.quantity:
             self.spin.setProperty("rawValue", number)
         else:
             self.spin.setValue(number)
@@ -95,8 +102,8 @@ class NumberEditor(Editor):
 class IntegerEditor(Editor):
     """A whole number."""
 
-    def __init__(self, node: form.Node):
-        super().__init__(node)
+    def __init__(self):
+        super().__init__()
         self.spin = calm(QtGui.QSpinBox())
         self.spin.setRange(-(10**9), 10**9)
         self.spin.valueChanged.connect(lambda value: self.edited.emit(int(value)))
@@ -112,15 +119,15 @@ class IntegerEditor(Editor):
 class TextEditor(Editor):
     """A text; where it names something of the design, with what there is to choose from."""
 
-    def __init__(self, node: form.Node, names: list[str] | None = None):
-        super().__init__(node)
+    def __init__(self, names: list[str] | None = None):
+        super().__init__()
         if names is None:
             self.box = None
             self.text = QtGui.QLineEdit()
             self.line.addWidget(self.text)
             self.setFocusProxy(self.text)
         else:
-            self.box = calm(QtGui.QComboBox())
+            self.box = narrow(calm(QtGui.QComboBox()))
             self.box.setEditable(True)
             self.box.addItems(names)
             self.text = self.box.lineEdit()
@@ -140,11 +147,11 @@ class TextEditor(Editor):
 class ChoiceEditor(Editor):
     """One of several words."""
 
-    def __init__(self, node: form.Node):
-        super().__init__(node)
-        self.box = calm(QtGui.QComboBox())
-        for k, (word, told) in enumerate(node.words.items()):
-            self.box.addItem(form.title(word), word)
+    def __init__(self, choice: Choice):
+        super().__init__()
+        self.box = narrow(calm(QtGui.QComboBox()))
+        for k, (word, told) in enumerate(choice.options):
+            self.box.addItem(title(word), word)
             self.box.setItemData(k, told, QtCore.Qt.ToolTipRole)
         self.box.currentIndexChanged.connect(lambda k: self.edited.emit(self.box.itemData(k)))
         self.line.addWidget(self.box)
@@ -159,8 +166,8 @@ class ChoiceEditor(Editor):
 class BooleanEditor(Editor):
     """Yes or no."""
 
-    def __init__(self, node: form.Node):
-        super().__init__(node)
+    def __init__(self):
+        super().__init__()
         self.box = QtGui.QCheckBox()
         self.box.toggled.connect(self.edited.emit)
         self.line.addWidget(self.box)
@@ -172,23 +179,19 @@ class BooleanEditor(Editor):
 
 
 class RowEditor(Editor):
-    """A fixed number of values beside each other."""
+    """A fixed number of values beside each other; ``cells`` are their widgets, ``filler`` a value not
+    given.
+    """
 
-    def __init__(self, node: form.Node, names: list[str] | None = None):
-        super().__init__(node)
+    def __init__(self, cells: list[Editor], filler: object):
+        super().__init__()
         self._value: list = []
-        self.cells = []
-        for k in range(node.columns):
-            if node.kind == "words":
-                cell = TextEditor(node, names)
-            elif node.item is not None and node.item.kind == "integer":
-                cell = IntegerEditor(node.item)
-            else:
-                cell = NumberEditor(node)
+        self._filler = filler
+        self.cells = cells
+        for k, cell in enumerate(cells):
             cell.edited.connect(lambda value, k=k: self._told(k, value))
             self.line.addWidget(cell)
-            self.cells.append(cell)
-        self.setFocusProxy(self.cells[0])
+        self.setFocusProxy(cells[0])
 
     def _told(self, k: int, value: object) -> None:
         self._value = [*self._value[:k], value, *self._value[k + 1 :]]
@@ -196,8 +199,7 @@ class RowEditor(Editor):
 
     def show_value(self, value: object) -> None:
         self._value = list(value) if isinstance(value, list) else []
-        filler = "" if self.node.kind == "words" else 0.0
-        self._value += [filler] * (self.node.columns - len(self._value))
+        self._value += [self._filler] * (len(self.cells) - len(self._value))
         for cell, part in zip(self.cells, self._value, strict=False):
             cell.show_value(part)
 
@@ -205,8 +207,9 @@ class RowEditor(Editor):
 class RawEditor(Editor):
     """Anything else: shown by its size, edited as JSON."""
 
-    def __init__(self, node: form.Node):
-        super().__init__(node)
+    def __init__(self, field: Field):
+        super().__init__()
+        self._field = field
         self._value: object = None
         self.size = QtGui.QLabel()
         self.button = QtGui.QPushButton("Edit...")
@@ -216,16 +219,17 @@ class RawEditor(Editor):
 
     def show_value(self, value: object) -> None:
         self._value = value
-        self.size.setText(f"{len(value)} entries" if isinstance(value, list) else "")
+        self.size.setText(f"{len(value)} entries" if isinstance(value, list) else str(value or "")[:30])
 
     def _edit(self) -> None:
         before = json.dumps(self._value, indent=1)
-        text, done = QtGui.QInputDialog.getMultiLineText(self, self.node.title, self.node.help, before)
+        title, told = self._field.title, self._field.description
+        text, done = QtGui.QInputDialog.getMultiLineText(self, title, told, before)
         if done:
             try:
                 self._value = json.loads(text)
             except ValueError as error:
-                QtGui.QMessageBox.warning(self, self.node.title, str(error))
+                QtGui.QMessageBox.warning(self, self._field.title, str(error))
             else:
                 self.show_value(self._value)
                 self.edited.emit(self._value)
