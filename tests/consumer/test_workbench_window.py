@@ -1,4 +1,4 @@
-"""The FreeCAD workbench in its window: buttons pressed, numbers typed, the sidecar killed (gui/scenarios.py)."""
+"""The FreeCAD workbench in its window: buttons pressed, numbers typed, the sidecar killed (`gui`)."""
 
 from __future__ import annotations
 
