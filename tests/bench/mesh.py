@@ -6,13 +6,13 @@
 Every solid is tessellated by `coolinggen-bench-mesh` (least of several runs), written as STEP, read by
 OpenCASCADE and meshed with BRepMesh_IncrementalMesh. Prints milliseconds, triangles, the greatest distance
 between triangles and surface at the same parameters, and the ratio of the times; with --least an
-error where it is smaller, or where coolinggen has more triangles. BRepMesh's distances are measured the same way.
+error where it is smaller, or where coolinggen has more triangles. BRepMesh's distances are measured the
+same way.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import os
 import sys

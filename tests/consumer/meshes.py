@@ -44,7 +44,7 @@ def _keys(sides: np.ndarray) -> np.ndarray:
 
 
 def genus(regions: list[Region]) -> float:
-    """Handles of closed triangles by Euler's formula, all shells together: shells - (V - E + F) / 2, E = 3 F / 2."""
+    """Handles by Euler's formula, all shells together: shells - (V - E + F) / 2 with E = 3 F / 2."""
     stored = np.concatenate([r.stored for r in regions]) + 0.0
     points, corner = np.unique(stored.reshape(-1, 3), axis=0, return_inverse=True)
     triangles = corner.reshape(-1, 3)
@@ -52,8 +52,8 @@ def genus(regions: list[Region]) -> float:
 
 
 def shells(triangles: np.ndarray, points: int) -> int:
-    """Pieces that hang together: every point takes the least number among its neighbours', and the number which that
-    one has taken, until nothing changes."""
+    """Pieces that hang together: every point takes the least number among its neighbours', and the number
+    which that one has taken, until nothing changes."""
     least = np.arange(points)
     while True:
         before = least.copy()

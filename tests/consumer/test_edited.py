@@ -1,4 +1,4 @@
-"""Designs that are no samples, samples with a change: seen by OpenCASCADE, FreeCAD and Gmsh, and as meshes."""
+"""Samples with a change, seen by OpenCASCADE, FreeCAD and Gmsh, and as meshes."""
 
 from __future__ import annotations
 
