@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -87,7 +88,16 @@ def test_genus_of_solids(asked, built, products):
         assert genus == asked.genus.get(product.name, genus), product.name
 
 
+def steps_in_time(built) -> list[Path]:
+    """The files of its parts, unless what is asked of them takes minutes."""
+    steps = [built.file(part, "step") for part in built.parts]
+    if any(map(witness.too_great, steps)):
+        witness.leave_to_long(built.name)
+    return steps
+
+
 def test_volumes(built, products):
+    steps_in_time(built)
     for product in products:
         expected = built.report["solids"][product.name]["volume_mm3"]
         for rule in (measure.volume_fixed, measure.volume_adaptive, measure.volume_mesh):
@@ -109,9 +119,7 @@ def test_meshes_are_closed_and_have_the_genus(asked, built):
 
 
 def test_bop_check_is_clean(built, tmp_path):
-    steps = [built.file(part, "step") for part in built.parts]
-    if any(map(witness.too_great, steps)):
-        witness.leave_to_long(built.name)
+    steps = steps_in_time(built)
     found = witness.freecad(steps, tmp_path)
     for step in steps:
         for thing in found.of(step)["objects"]:
@@ -121,9 +129,7 @@ def test_bop_check_is_clean(built, tmp_path):
 
 
 def test_gmsh_fills_the_solids(built, tmp_path):
-    steps = [built.file(part, "step") for part in built.parts]
-    if any(map(witness.too_great, steps)):
-        witness.leave_to_long(built.name)
+    steps = steps_in_time(built)
     found = witness.gmsh(steps, tmp_path)
     for step in steps:
         fill = found.of(step)["fill"]
