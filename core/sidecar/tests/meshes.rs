@@ -146,7 +146,7 @@ fn check(body: &Body, report: &Value) {
                 continue;
             }
             // Tiny triangles may tilt, and single precision tilts those that are not high.
-            let tiny = longest < 0.1 * CHORD || across.length() < 1e-4 * longest;
+            let tiny = longest < CHORD || across.length() < 1e-4 * longest;
             let free = pointed || body.rounded || tiny;
             let least = if free { 0.0 } else { (ANGLE + 0.5).to_radians().cos() };
             for normal in normals {

@@ -13,6 +13,8 @@ use std::collections::HashSet;
 const ROUNDS: usize = 20;
 /// Rounds after which a triangle that still stands askew is the border's fault, not the grid's.
 const PATIENCE: usize = 2;
+/// Rounds in which tilted triangles are divided; those that are turned over always are.
+const TILTED: usize = 6;
 /// Density of the first grid, as a share of what curvature at its worst asks for.
 const START: f64 = 0.5;
 /// Refinement bounds the turn of the normal over a triangle's side at this many times the angle asked for, which is
@@ -70,6 +72,7 @@ pub(crate) fn fill(
         turn: (DIAGONAL * o.angle()).cos(),
         tilt: o.angle().cos(),
         shortest: 0.1 * o.chord_mm,
+        tiny: o.chord_mm,
         close: 0.6 * o.chord_mm,
     };
     for round in 0..ROUNDS {
@@ -101,7 +104,13 @@ pub(crate) fn fill(
                     return Err(Unfit::Coarse(segments));
                 }
             }
-            faults.extend(askew.into_iter().map(|triangle| patch.middle(triangle)));
+            // At a pole no number of nodes brings triangles to a normal that the surface does not have.
+            let hopeless = |&i: &usize| round >= TILTED && patch.uprightness(patch.triangles[i]) > 0.0;
+            if faults.is_empty() && !askew.is_empty() && askew.iter().all(hopeless) {
+                break;
+            }
+            let worth = askew.into_iter().filter(|i| !hopeless(i));
+            faults.extend(worth.map(|triangle| patch.middle(triangle)));
         }
         if faults.is_empty() {
             return Ok(true);

@@ -38,8 +38,10 @@ pub(crate) struct Limits {
     pub(crate) turn: f64,
     /// Cosine of the greatest angle between a triangle's normal and the surface's at its corners.
     pub(crate) tilt: f64,
-    /// Length below which a side may turn, and a triangle tilt, as it likes, mm.
+    /// Length below which a side may turn as it likes, mm.
     pub(crate) shortest: f64,
+    /// Length of a triangle's longest side below which it may tilt as it likes, mm.
+    pub(crate) tiny: f64,
     /// Distance above which a triangle is looked at in more places, mm.
     pub(crate) close: f64,
 }
@@ -150,7 +152,7 @@ impl Patch {
     /// Whether a triangle faces away from the surface at a corner; or is tilted too far, unless it is tiny.
     pub(crate) fn is_askew(&self, t: [u32; 3], limits: Limits) -> bool {
         let upright = self.uprightness(t);
-        !(upright > 0.0) || upright < limits.tilt && self.longest(t).1 > limits.shortest
+        !(upright > 0.0) || upright < limits.tilt && self.longest(t).1 > limits.tiny
     }
 
     /// The longest side of a triangle, and its length.
@@ -160,12 +162,12 @@ impl Patch {
         longer(longer(length([a, b]), length([b, c])), length([c, a]))
     }
 
-    /// Where a node straightens up a triangle that stands askew: in the middle of its longest side, unless that is a
-    /// border segment.
+    /// Where a node straightens up a triangle that stands askew: in the middle of its longest side; in its centre if that is
+    /// a border segment or the triangle is turned over.
     pub(crate) fn middle(&self, triangle: usize) -> Fault {
         let t = self.triangles[triangle];
         let ([a, b], _) = self.longest(t);
-        let uv = if self.is_border(a, b) {
+        let uv = if self.is_border(a, b) || !(self.uprightness(t) > 0.0) {
             t.iter().map(|&i| self.uv[i as usize]).sum::<DVec2>() / 3.0
         } else {
             0.5 * (self.uv[a as usize] + self.uv[b as usize])
@@ -220,7 +222,7 @@ impl Patch {
     /// Greatest distance found by [`Self::inspect`].
     pub(crate) fn worst(&self, surface: &SurfaceGeometry) -> f64 {
         let mut worst = 0.0f64;
-        let limits = Limits { turn: -2.0, tilt: -2.0, shortest: 0.0, close: f64::INFINITY };
+        let limits = Limits { turn: -2.0, tilt: -2.0, shortest: 0.0, tiny: 0.0, close: f64::INFINITY };
         self.inspect(surface, limits, |_| true, |f| worst = worst.max(f.distance));
         worst
     }
