@@ -8,8 +8,8 @@ from pathlib import Path
 import FreeCAD as App
 import Part
 
+from .client.sidecar import RefusedError, SidecarError
 from .service import sidecar
-from .sidecar import RefusedError, SidecarError
 
 #: Parts of a design in the order of the shape's solids.
 PARTS = ("metal", "insert", "coolant")

@@ -4,8 +4,8 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from . import blade
+from .client.sidecar import SidecarError
 from .service import sidecar
-from .sidecar import SidecarError
 
 
 class NewFromTemplate:

@@ -4,7 +4,7 @@ import atexit
 
 import FreeCAD as App
 
-from .sidecar import Sidecar, find
+from .client.sidecar import Sidecar, find
 
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/CoolingGen"
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import FreeCAD as App
 from freecad.coolinggen import blade, service
-from freecad.coolinggen.sidecar import CancelledError, MissingError, RefusedError, Sidecar, find
+from freecad.coolinggen.client.sidecar import CancelledError, MissingError, RefusedError, Sidecar, find
 
 
 def template(name: str = "rotor") -> dict:

@@ -1,7 +1,4 @@
-"""A client of ``coolinggen serve``: starts it, asks it, and says in one type what went wrong.
-
-Nothing here knows of FreeCAD, so that other programs may use it as it stands.
-"""
+"""A client of ``coolinggen serve``: starts it, asks it, and says in one type what went wrong."""
 
 import contextlib
 import itertools
@@ -43,12 +40,12 @@ class RefusedError(SidecarError):
 
 
 def find(preferred: str = "") -> Path:
-    """The sidecar's binary: the preferred one, the one beside this file, or the one on the path."""
+    """The sidecar's binary: the preferred one, the one packed into the add-on, or the one on the path."""
     if preferred:
         if not Path(preferred).is_file():
             raise MissingError(f"there is no coolinggen at {preferred}: look at the preferences")
         return Path(preferred)
-    bundled = Path(__file__).parent / "bin" / NAME
+    bundled = Path(__file__).parent.parent / "bin" / NAME
     if bundled.is_file():
         return bundled
     found = shutil.which(NAME)
