@@ -139,9 +139,13 @@ fn a_cancel_is_answered_at_once_at_any_moment() {
     }
     answers.sort_by_key(|answer| answer.work);
     let last = &answers[answers.len() - 1];
-    eprintln!("{} cancelled of {whole:.0?}; the most work: {last:.0?}", answers.len());
+    let Answer { work, wall, method, after } = last;
+    eprintln!(
+        "{} of {whole:.0?} cancelled; most work {work:?}, {wall:.0?} by the clock: {method} after {after:.0?}",
+        answers.len()
+    );
     assert!(answers.len() > MOMENTS as usize, "{answers:?}");
-    assert!(last.work <= LIMIT, "{last:?} of {whole:?}");
+    assert!(*work <= LIMIT, "{last:?} of {whole:?}");
     // No temporary file is left.
     for file in std::fs::read_dir(folder.path()).unwrap() {
         let name = file.unwrap().file_name();
