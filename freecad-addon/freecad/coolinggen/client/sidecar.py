@@ -51,6 +51,7 @@ def find(preferred: str = "") -> Path:
         return Path(preferred)
     bundled = Path(__file__).parent.parent / "bin" / NAME
     if bundled.is_file():
+        _executable(bundled)
         return bundled
     found = shutil.which(NAME)
     if found is None:
@@ -58,6 +59,14 @@ def find(preferred: str = "") -> Path:
             "coolinggen is neither beside the add-on nor on the PATH: say in the preferences where it is"
         )
     return Path(found)
+
+
+def _executable(program: Path) -> None:
+    """Gives a program the permission to run that unpacking may have taken from it."""
+    if not os.access(program, os.X_OK):
+        # Where it can't be had, starting the program says so.
+        with contextlib.suppress(OSError):
+            program.chmod(program.stat().st_mode | 0o755)
 
 
 class Sidecar:
