@@ -147,6 +147,12 @@ def _distance(surface, point) -> float:
 class Taken(unittest.TestCase):
     """Blades that were drawn before."""
 
+    @classmethod
+    def setUpClass(cls):
+        design = template()
+        del design["cooling"]
+        cls.plain = blade.new(App.newDocument("Plain"), design).Solids[0].Shape.copy()
+
     def tearDown(self):
         for name in list(App.listDocuments()):
             App.closeDocument(name)
@@ -173,23 +179,16 @@ class Taken(unittest.TestCase):
             self.assertLess(min(_distance(surface, point) for surface in surfaces), 2e-3)
 
     def test_a_solid_of_several_faces_is_cooled_in_its_place(self):
-        design = template()
-        del design["cooling"]
-        plain = blade.new(App.newDocument("Plain"), design).Solids[0]
         placement = App.Placement(App.Vector(7, -400, 30), App.Rotation(App.Vector(1, 2, 3), 70))
-        faces = list(plain.Shape.Faces)
-        made = self.cooled(faces, placement)
-        drawn = plain.Shape.copy()
+        made = self.cooled(list(self.plain.Faces), placement)
+        drawn = self.plain.copy()
         drawn.Placement = placement
         self.assertEqual(json.loads(made.Design)["blade"]["kind"], "step")
         self.assertTrue(made.Solids[0].Shape.isValid())
         self.lies_on(made, drawn.Faces)
 
     def test_a_file_that_a_blade_was_made_of_goes_with_its_document(self):
-        design = template()
-        del design["cooling"]
-        plain = blade.new(App.newDocument("Plain"), design).Solids[0]
-        made = self.cooled(list(plain.Shape.Faces), App.Placement())
+        made = self.cooled(list(self.plain.Faces), App.Placement())
         volume = made.Solids[0].Shape.Volume
         with tempfile.TemporaryDirectory() as folder:
             path = str(Path(folder) / "taken.FCStd")
