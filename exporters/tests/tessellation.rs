@@ -34,6 +34,23 @@ fn meshes_are_closed_and_keep_the_chord() {
     }
 }
 
+/// Two borders that run side by side, nearer than chords are to them, are cut so finely that no triangle between them
+/// turns over.
+#[test]
+fn borders_near_each_other_keep_their_order() {
+    for gap in [1e-4, 3e-4, 1e-3, 5e-3, 0.02, 0.3] {
+        let model = surfaces::window_near_border(gap);
+        for (chord_mm, angle_deg) in [(0.1, 30.0), (0.02, 15.0)] {
+            let t = tessellate(&model, &options(chord_mm, angle_deg)).unwrap();
+            let found = &mesh::inspect(&model, &t)[0];
+            let at = format!("gap {gap} at {chord_mm}: {found:?}");
+            assert_eq!(t.coarse, [], "{at}");
+            assert!(found.distance <= chord_mm && found.cosine > angle_deg.to_radians().cos(), "{at}");
+            assert!(found.triangles < 400, "{at}");
+        }
+    }
+}
+
 #[test]
 fn volumes_converge_from_within_the_chord() {
     for (name, model) in support::all() {
