@@ -45,6 +45,8 @@ pub(crate) enum Unfit {
     Coarse(Vec<u32>),
     /// Two nodes lie in one place.
     Touching,
+    /// It was told to stop.
+    Stopped,
 }
 
 /// Fills the patch and says whether its triangles then keep the tolerances.
@@ -58,6 +60,7 @@ pub(crate) fn fill(
     field: &Field,
     o: &TessellationOptions,
     least: Option<f64>,
+    stop: &dyn Fn() -> bool,
 ) -> Result<bool, Unfit> {
     patch.clear();
     // A coarse grid, refined where it must be, ends with fewer triangles than one that is fine enough everywhere.
@@ -76,6 +79,9 @@ pub(crate) fn fill(
         close: 0.6 * o.chord_mm,
     };
     for round in 0..ROUNDS {
+        if stop() {
+            return Err(Unfit::Stopped);
+        }
         patch.triangles = inside(&cdt);
         patch.exchange_diagonals(limits.tilt);
         let mut faults: Vec<Fault> = Vec::new();
