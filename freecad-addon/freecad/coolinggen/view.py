@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import FreeCADGui as Gui
+from pivy import coin
 
 ICONS = Path(__file__).parent / "icons"
 
@@ -39,6 +40,17 @@ class BladeView(_View):
 
     def getIcon(self) -> str:  # noqa: N802 (FreeCAD's names here and below)
         return icon("blade")
+
+    def attach(self, view) -> None:
+        super().attach(view)
+        # Nothing of its own is shown, but without a mode the tree would take it for hidden.
+        view.addDisplayMode(coin.SoGroup(), "Solids")
+
+    def getDisplayModes(self, view) -> list[str]:  # noqa: N802
+        return ["Solids"]
+
+    def getDefaultDisplayMode(self) -> str:  # noqa: N802
+        return "Solids"
 
     def claimChildren(self) -> list:  # noqa: N802
         return list(self.Object.Solids)
