@@ -104,7 +104,8 @@ def _run(obj, command: str) -> None:
 
 def paint(obj, colors: list | None = None) -> None:
     """Colours the faces of a solid, by region if nothing else is asked for."""
-    colors = list(obj.FaceColors) if colors is None else colors
+    # Three parts each: what a fourth means, transparency or opacity, depends on FreeCAD's version.
+    colors = [tuple(color[:3]) for color in (obj.FaceColors if colors is None else colors)]
     if colors and len(colors) == len(obj.Shape.Faces):
         obj.ViewObject.DiffuseColor = colors
 
