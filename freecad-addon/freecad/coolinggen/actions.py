@@ -44,7 +44,9 @@ def from_selection(document) -> panel.Panel:
     from . import source
 
     chosen = source.selected()
-    return panel.open_new(document, chosen.design, file=chosen.file, placement=chosen.placement)
+    made = panel.open_new(document, chosen.design, file=chosen.file, placement=chosen.placement)
+    made.replaces(chosen.drawn)
+    return made
 
 
 def report(obj) -> None:

@@ -58,6 +58,12 @@ class Panel:
         self._poll.start(POLL_MS)
         self._preview()
 
+    def replaces(self, drawn) -> None:
+        """The blade stands in the place of ``drawn``, which is hidden; Cancel shows it again."""
+        if drawn.ViewObject.Visibility:
+            drawn.ViewObject.Visibility = False
+            self._hidden.append(drawn)
+
     # The widget
 
     def _widget(self) -> QtGui.QWidget:

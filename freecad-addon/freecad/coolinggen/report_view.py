@@ -129,6 +129,9 @@ def show(obj) -> ReportView:
     if view is None:
         view = ReportView(window)
         window.addDockWidget(QtCore.Qt.BottomDockWidgetArea, view)
+        messages = window.findChild(QtGui.QDockWidget, "Report view")
+        if messages is not None and messages.isVisible():
+            window.tabifyDockWidget(messages, view)
     view.fill(obj)
     view.show()
     view.raise_()

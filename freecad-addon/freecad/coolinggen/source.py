@@ -8,7 +8,7 @@ with.
 import itertools
 import math
 import tempfile
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import FreeCAD as App
@@ -30,6 +30,7 @@ class Chosen:
     design: dict
     file: str
     placement: App.Placement
+    drawn: object = None  #: The object that was selected.
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ def selected() -> Chosen:
     names = [name for name in item.SubElementNames if name.split(".")[-1].startswith("Face")]
     obj, placement, shape = _resolved(item, names)
     faces = [shape.getElement(n.split(".")[-1]) for n in names] or shape.Faces
-    return of_shape(faces, placement, obj.Label)
+    return replace(of_shape(faces, placement, obj.Label), drawn=obj)
 
 
 def _resolved(item, names: list[str]):

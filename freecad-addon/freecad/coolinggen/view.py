@@ -115,6 +115,7 @@ def dress(obj) -> None:
 
     if is_blade(obj):
         BladeView(obj.ViewObject)
+        obj.ViewObject.Visibility = True
         return
     SolidView(obj.ViewObject)
     obj.ViewObject.DisplayMode = "Flat Lines"

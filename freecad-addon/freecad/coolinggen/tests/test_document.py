@@ -7,7 +7,8 @@ import unittest
 from pathlib import Path
 
 import FreeCAD as App
-from freecad.coolinggen import blade, service
+import Part
+from freecad.coolinggen import blade, service, source
 from freecad.coolinggen.client.sidecar import CancelledError, MissingError, RefusedError, Sidecar, find
 
 
@@ -137,6 +138,66 @@ class BladeInDocument(unittest.TestCase):
         process.wait()
         blade.rebuild(made)
         self.assertTrue(made.isValid())
+
+
+def _distance(surface, point) -> float:
+    return (surface.value(*surface.parameter(point)) - point).Length
+
+
+class Taken(unittest.TestCase):
+    """Blades that were drawn before."""
+
+    @classmethod
+    def setUpClass(cls):
+        design = template()
+        del design["cooling"]
+        cls.plain = blade.new(App.newDocument("Plain"), design).Solids[0].Shape.copy()
+
+    def tearDown(self):
+        for name in list(App.listDocuments()):
+            App.closeDocument(name)
+
+    def cooled(self, faces, placement):
+        chosen = source.of_shape(faces, placement, "Drawn blade")
+        document = App.newDocument("Taken")
+        made = blade.new(document, chosen.design, file=chosen.file, placement=chosen.placement)
+        self.assertEqual(list(made.Refusal), [])
+        return made
+
+    def lies_on(self, made, drawn):
+        """Borders of the cooled blade's sides lie on the faces that were drawn."""
+        metal = made.Solids[0]
+        sides = [
+            f
+            for n, f in zip(metal.FaceNames, metal.Shape.Faces, strict=True)
+            if "_side" in n and "blade/" in n
+        ]
+        self.assertGreaterEqual(len(sides), 2)
+        surfaces = [face.Surface for face in drawn if isinstance(face.Surface, Part.BSplineSurface)]
+        for edge in (edge for side in sides for edge in side.Edges):
+            point = edge.valueAt((edge.FirstParameter + edge.LastParameter) / 2)
+            self.assertLess(min(_distance(surface, point) for surface in surfaces), 2e-3)
+
+    def test_a_solid_of_several_faces_is_cooled_in_its_place(self):
+        placement = App.Placement(App.Vector(7, -400, 30), App.Rotation(App.Vector(1, 2, 3), 70))
+        made = self.cooled(list(self.plain.Faces), placement)
+        drawn = self.plain.copy()
+        drawn.Placement = placement
+        self.assertEqual(json.loads(made.Design)["blade"]["kind"], "step")
+        self.assertTrue(made.Solids[0].Shape.isValid())
+        self.lies_on(made, drawn.Faces)
+
+    def test_a_file_that_a_blade_was_made_of_goes_with_its_document(self):
+        made = self.cooled(list(self.plain.Faces), App.Placement())
+        volume = made.Solids[0].Shape.Volume
+        with tempfile.TemporaryDirectory() as folder:
+            path = str(Path(folder) / "taken.FCStd")
+            made.Document.saveAs(path)
+            App.closeDocument(made.Document.Name)
+            made = App.openDocument(path).getObject("CooledBlade")
+            blade.rebuild(made)
+            self.assertTrue(made.isValid(), list(made.Refusal))
+            self.assertAlmostEqual(made.Solids[0].Shape.Volume / volume, 1, places=9)
 
 
 class Client(unittest.TestCase):

@@ -172,7 +172,7 @@ class ListPart(Part):
         self.buttons = {}
         for name, text, told in (
             ("add", "+", "Add another"),
-            ("duplicate", "\u29c9", "Duplicate this one"),
+            ("duplicate", "2\u00d7", "Duplicate this one"),
             ("remove", "\u2212", "Remove this one"),
         ):
             button = QtGui.QToolButton()
