@@ -21,6 +21,7 @@ SEEN = {
     "saved": {"same": True, "colors": True, "names": True, "children": 4},
     "selected": {"valid": True},
     "tools": {"selected": ["blade/pressure_side", "blade/suction_side"], "solids": 4},
+    "thickness": {"glass": 75, "away": True},
     "preferences": {"saved": "/nowhere/coolinggen"},
 }  # fmt: skip
 

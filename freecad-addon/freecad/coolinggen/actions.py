@@ -73,6 +73,13 @@ def groups(obj) -> None:
     obj.Document.commitTransaction()
 
 
+def thickness(obj) -> None:
+    """Shows a blade's wall thickness, or takes it away."""
+    from . import thickness as shown
+
+    shown.toggle(obj)
+
+
 def regions(obj) -> None:
     """Colours a blade's faces by region."""
     from .view import paint

@@ -123,7 +123,7 @@ def fill(obj, built: job.Built) -> None:
         child = known.pop(solid.name, None) or _child(obj, solid.name)
         child.Shape = solid.shape
         child.FaceNames = solid.faces
-        child.FaceColors = [(*color, 0.0) for color in solid.colors]
+        child.FaceColors = solid.colors
         solids.append(child)
     obj.Solids = solids
     _place(obj)

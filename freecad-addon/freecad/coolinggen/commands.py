@@ -142,6 +142,10 @@ COMMANDS = {
         "Groups of faces for FEM and CfdOF", "Named groups of faces for boundary conditions", "groups",
         lambda: actions.groups(_chosen()), _with_blade,
     ),
+    "Thickness": Command(
+        "Wall thickness", "Show the metal between passages and the outer surface as colours; again: no more",
+        "thickness", lambda: actions.thickness(_chosen()), _with_blade,
+    ),
     "Regions": Command(
         "Colours by region", "Colour every face by its region", "regions",
         lambda: actions.regions(_chosen()), _with_blade,
@@ -156,7 +160,7 @@ COMMANDS = {
 LAYOUT = (
     ("New", "FromSelection", "FromStep", "FromMedial", "FromDesign"),
     ("Edit", "Rebuild", "Report", "SelectFaces", "Groups"),
-    ("Regions", "Export"),
+    ("Thickness", "Regions", "Export"),
 )
 
 

@@ -112,5 +112,29 @@ def export(request: Request, target: Path, kinds: list[str], watch: Watch) -> li
     return [Path(file["path"]) for file in reply["files"]]
 
 
+def wall_thickness(request: Request, watch: Watch) -> list[Mesh]:
+    """Meshes of the coolant with the wall thickness at their vertices."""
+    server = sidecar()
+    server.call(
+        "design/generate",
+        **request.params(),
+        report=False,
+        progress=_part(watch, 0.0, 0.5),
+        cancelled=watch.stopped,
+    )
+    reply = server.call(
+        "model/tessellate",
+        model=request.model,
+        chord_mm=PREVIEW_CHORD_MM,
+        # Colours run between vertices: there must be enough of them.
+        angle_deg=8.0,
+        solids=["coolant"],
+        wall_thickness=True,
+        progress=_part(watch, 0.5, 1.0),
+        cancelled=watch.stopped,
+    )
+    return [decode(solid) for solid in reply["solids"]]
+
+
 def _part(watch: Watch, begin: float, end: float):
     return lambda stage, fraction: watch.progress(stage, begin + (end - begin) * fraction)

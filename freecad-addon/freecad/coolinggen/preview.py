@@ -36,7 +36,7 @@ class Preview:
         self._parts = {}
         for mesh in meshes:
             switch = coin.SoSwitch()
-            switch.addChild(_mesh(mesh, 0.7 if self.glass and _part(mesh) == "metal" else 0.0))
+            switch.addChild(mesh_node(mesh, 0.7 if self.glass and _part(mesh) == "metal" else 0.0))
             self._parts[mesh.name] = switch
             self._node.addChild(switch)
         self.update()
@@ -69,20 +69,25 @@ def _part(mesh: Mesh) -> str:
     return mesh.name.split("/")[0]
 
 
-def _mesh(mesh: Mesh, transparency: float) -> coin.SoSeparator:
+def mesh_node(mesh: Mesh, transparency: float = 0.0, by_vertex: list | None = None) -> coin.SoSeparator:
+    """A mesh for a 3D view, in the colours of its faces or one for each vertex."""
     group = coin.SoSeparator()
     # Translucent triangles of one body are not sorted; both sides are drawn.
     hints = coin.SoShapeHints()
     hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
     hints.shapeType = coin.SoShapeHints.UNKNOWN_SHAPE_TYPE
     group.addChild(hints)
-    palette = {color: k for k, color in enumerate(dict.fromkeys(face.color for face in mesh.faces))}
+    if by_vertex is None:
+        palette = {color: k for k, color in enumerate(dict.fromkeys(face.color for face in mesh.faces))}
+        shades, way = list(palette), coin.SoMaterialBinding.PER_FACE_INDEXED
+    else:
+        shades, way = by_vertex, coin.SoMaterialBinding.PER_VERTEX_INDEXED
     material = coin.SoMaterial()
-    material.diffuseColor.setValues(0, len(palette), [list(color) for color in palette])
+    material.diffuseColor.setValues(0, len(shades), [list(color) for color in shades])
     material.transparency.setValue(transparency)
     group.addChild(material)
     binding = coin.SoMaterialBinding()
-    binding.value = coin.SoMaterialBinding.PER_FACE_INDEXED
+    binding.value = way
     group.addChild(binding)
     points = coin.SoCoordinate3()
     points.point.setValues(0, len(mesh.vertices) // 3, _triples(mesh.vertices))
@@ -99,7 +104,10 @@ def _mesh(mesh: Mesh, transparency: float) -> coin.SoSeparator:
     for a, b, c in zip(t[0::3], t[1::3], t[2::3], strict=True):
         corners += (a, b, c, -1)
     faces.coordIndex.setValues(0, len(corners), corners)
-    colors = [palette[face.color] for face in mesh.faces for _ in face.triangles]
+    if by_vertex is None:
+        colors = [palette[face.color] for face in mesh.faces for _ in face.triangles]
+    else:
+        colors = corners
     faces.materialIndex.setValues(0, len(colors), colors)
     group.addChild(faces)
     return group

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import FreeCADGui as Gui
+from pivy import coin
 
 ICONS = Path(__file__).parent / "icons"
 
@@ -39,6 +40,17 @@ class BladeView(_View):
 
     def getIcon(self) -> str:  # noqa: N802 (FreeCAD's names here and below)
         return icon("blade")
+
+    def attach(self, view) -> None:
+        super().attach(view)
+        # Nothing of its own is shown, but without a mode the tree would take it for hidden.
+        view.addDisplayMode(coin.SoGroup(), "Solids")
+
+    def getDisplayModes(self, view) -> list[str]:  # noqa: N802
+        return ["Solids"]
+
+    def getDefaultDisplayMode(self) -> str:  # noqa: N802
+        return "Solids"
 
     def claimChildren(self) -> list:  # noqa: N802
         return list(self.Object.Solids)
@@ -104,7 +116,8 @@ def _run(obj, command: str) -> None:
 
 def paint(obj, colors: list | None = None) -> None:
     """Colours the faces of a solid, by region if nothing else is asked for."""
-    colors = list(obj.FaceColors) if colors is None else colors
+    # Three parts each: what a fourth means, transparency or opacity, depends on FreeCAD's version.
+    colors = [tuple(color[:3]) for color in (obj.FaceColors if colors is None else colors)]
     if colors and len(colors) == len(obj.Shape.Faces):
         obj.ViewObject.DiffuseColor = colors
 

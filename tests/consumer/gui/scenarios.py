@@ -345,6 +345,23 @@ def preferences(user):
     yield lambda: True
 
 
+def thickness(user):
+    """Wall thickness as colours between the design's least and its greatest, and away again."""
+    from freecad.coolinggen import thickness as shown
+
+    yield from _made(user)
+    metal = _blade().Solids[0].ViewObject
+    user.run("Thickness")
+    (made,) = shown._shown.values()
+    user.notes["range"] = made.range
+    user.notes["glass"] = metal.Transparency
+    yield from _pause(0.5)
+    user.screen("7-thickness")
+    user.run("Thickness")
+    user.notes["away"] = not shown._shown and metal.Transparency == 0
+
+
 SCENARIOS = {
-    f.__name__: f for f in (make, edit, lists, wrong, killed, alive, saved, selected, tools, preferences)
+    f.__name__: f
+    for f in (make, edit, lists, wrong, killed, alive, saved, selected, tools, thickness, preferences)
 }

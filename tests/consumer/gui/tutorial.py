@@ -46,6 +46,11 @@ def tutorial(user):
     tabs.currentWidget().selectRow(4)
     yield from _pause(0.5)
     user.screen("6-report")
+    Gui.Selection.clearSelection()
+    user.run("Thickness")
+    yield from _pause(0.7)
+    user.screen("7-thickness")
+    user.run("Thickness")
 
 
 SCENARIOS = {"tutorial": tutorial}

@@ -26,6 +26,8 @@ class Mesh:
     normals: array.array
     triangles: array.array
     faces: list[Face]
+    #: Wall thickness at each vertex, mm, not a number where there is none; empty if it was not asked for.
+    wall_thickness: array.array
 
     def points(self, face: Face) -> list[tuple[float, float, float]]:
         """The vertices of a face, mm."""
@@ -47,6 +49,7 @@ def decode(solid: dict) -> Mesh:
         _numbers("f", solid["normals"]),
         _numbers("I", solid["triangles"]),
         faces,
+        _numbers("f", solid.get("wall_thickness_mm", "")),
     )
 
 
