@@ -9,7 +9,7 @@ pub use fault::Fault;
 use crate::model::{EdgeId, Face, FaceId, Loop, Model, Solid};
 use crate::probe::SurfaceProbe;
 use coolinggen_nurbs::ParametricCurve;
-use deviation::Gauge;
+pub(crate) use deviation::Gauge;
 use std::collections::HashMap;
 
 /// Greatest distance between the end of an edge's curve and its vertex that passes, mm.
@@ -58,6 +58,13 @@ pub struct SolidCheck {
     pub max_edge_distance_at: Option<EdgePlace>,
 }
 
+/// What was found on one face.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FaceCheck {
+    pub(crate) gauge: Gauge,
+    pub(crate) faults: Vec<Fault>,
+}
+
 impl SolidCheck {
     /// Whether nothing at all is wrong.
     pub fn is_sound(&self) -> bool {
@@ -69,6 +76,15 @@ impl Model {
     /// Checks topology and geometry of a solid of this model. Faults of faces that the solid does not use are not
     /// reported.
     pub fn check_solid(&self, solid: &Solid) -> SolidCheck {
+        self.check_solid_by(solid, &mut |face| self.check_face(face))
+    }
+
+    /// [`Model::check_solid`] with the findings on each face from `on_face`.
+    pub(crate) fn check_solid_by(
+        &self,
+        solid: &Solid,
+        on_face: &mut dyn FnMut(FaceId) -> FaceCheck,
+    ) -> SolidCheck {
         let mut check = SolidCheck {
             watertight: false,
             genus_found: None,
@@ -92,7 +108,9 @@ impl Model {
         self.check_edges(solid, &mut check);
         let mut gauge = Gauge::default();
         for used in solid.faces() {
-            self.check_face(used.face, &mut gauge, &mut check.faults);
+            let found = on_face(used.face);
+            gauge.include(&found.gauge);
+            check.faults.extend(found.faults);
         }
         (check.max_edge_deviation_mm, check.max_edge_deviation_at) = gauge.deviation;
         (check.max_edge_distance_mm, check.max_edge_distance_at) = gauge.distance;
@@ -160,7 +178,9 @@ impl Model {
     }
 
     /// Loops in the parameter plane, and edges against the surface.
-    fn check_face(&self, id: FaceId, gauge: &mut Gauge, faults: &mut Vec<Fault>) {
+    pub(crate) fn check_face(&self, id: FaceId) -> FaceCheck {
+        let mut check = FaceCheck::default();
+        let FaceCheck { gauge, faults } = &mut check;
         let face = self.face(id);
         let name = || face.name.clone();
         let mut probe = SurfaceProbe::new(&face.surface);
@@ -187,6 +207,7 @@ impl Model {
                 }
             }
         }
+        check
     }
 
     /// The jumps between parameter curves, which must be none, or on a pole of the surface.

@@ -17,15 +17,21 @@ const FRACTIONS: [f64; 4] = [0.12, 0.33, 0.5, 0.79];
 const NEGLIGIBLE: f64 = 1e-11;
 
 /// The greatest deviations so far.
-#[derive(Debug, Default)]
-pub(super) struct Gauge {
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Gauge {
     /// Distance at the same parameter, mm, and where.
-    pub(super) deviation: (f64, Option<EdgePlace>),
+    pub(crate) deviation: (f64, Option<EdgePlace>),
     /// The part of it along the normal.
-    pub(super) distance: (f64, Option<EdgePlace>),
+    pub(crate) distance: (f64, Option<EdgePlace>),
 }
 
 impl Gauge {
+    /// Takes note of what another has found.
+    pub(super) fn include(&mut self, other: &Self) {
+        self.note(other.deviation.0, 0.0, other.deviation.1);
+        self.note(0.0, other.distance.0, other.distance.1);
+    }
+
     /// Compares an edge with its image on a face; returns the greatest deviation, or a bound on it that is below
     /// the greatest so far or negligible.
     pub(super) fn measure(
