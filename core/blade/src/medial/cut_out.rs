@@ -29,7 +29,7 @@ impl CutOut {
         knots_v: &Knots,
         edges: impl Fn(f64) -> [f64; 2],
     ) -> Result<Self, NurbsError> {
-        let vs = stations(knots_v);
+        let vs = stations(knots_v, knots_v.degree() + 3);
         let data: Vec<[f64; 2]> = vs.iter().map(|&v| edges(v)).collect();
         let last = vs.len() - 1;
         let (plain, met) = points_met(knots_v, &vs, &[0, last])?;

@@ -4,13 +4,18 @@ use super::medial_surface::MedialSurface;
 use super::pace::Pace;
 use super::profile::Profile;
 use crate::law::Law;
-use coolinggen_nurbs::{NurbsError, ParametricSurface};
+use coolinggen_nurbs::{Basis, NurbsError, ParametricSurface};
 use glam::DVec3;
 
 /// Two sides of a blade as functions of t in [0, 1], from the leading to the trailing edge, and v in [0, 1].
 pub(crate) trait TwoSided {
     /// The point of side `k` (0 or 1) at (t, v).
     fn point(&self, k: usize, t: f64, v: f64) -> DVec3;
+
+    /// Points of side `k` at all `ts` and `vs`, a row for each t.
+    fn grid(&self, k: usize, ts: &[f64], vs: &[f64]) -> Vec<Vec<DVec3>> {
+        ts.iter().map(|&t| vs.iter().map(|&v| self.point(k, t, v)).collect()).collect()
+    }
 
     /// How fast side `k` leaves the leading edge, d y'(0) half way up, and y''(0) / (2 y'(0)).
     fn nose(&self, k: usize) -> (f64, f64);
@@ -96,6 +101,27 @@ impl TwoSided for Sides {
         let u = side.pace.at(t);
         let lift = SIGN[k] * side.scale.at(v) * side.profile.at(t)[0].y;
         self.medial.surface.point(u, v) + self.medial.normals.point(u, v) * lift
+    }
+
+    fn grid(&self, k: usize, ts: &[f64], vs: &[f64]) -> Vec<Vec<DVec3>> {
+        let side = &self.sides[k];
+        let scales: Vec<f64> = vs.iter().map(|&v| SIGN[k] * side.scale.at(v)).collect();
+        // Surface and normals have the same knots.
+        let knots = self.medial.surface.knots_v();
+        let bases: Vec<_> = vs.iter().map(|&v| knots.basis(v, 0)).collect();
+        let row = |&t: &f64| {
+            let (u, y) = (side.pace.at(t), side.profile.at(t)[0].y);
+            let (m, n) = (self.medial.surface.iso_u(u), self.medial.normals.iso_u(u));
+            let point = |(basis, scale): (&Basis, &f64)| {
+                let range = basis.first..=basis.first + knots.degree();
+                let (m, n) = (&m.points()[range.clone()], &n.points()[range]);
+                let weighted =
+                    basis.values[0].iter().zip(m).zip(n).map(|((f, m), n)| (*m + *n * (scale * y)) * *f);
+                weighted.sum()
+            };
+            bases.iter().zip(&scales).map(point).collect()
+        };
+        ts.iter().map(row).collect()
     }
 
     fn nose(&self, k: usize) -> (f64, f64) {

@@ -166,8 +166,11 @@ struct Data {
 impl Data {
     fn new(sides: &dyn TwoSided, first: usize, places: &Places, lines: usize) -> Self {
         let v: Vec<f64> = (0..=lines).map(|j| j as f64 / lines as f64).collect();
-        let row = |i: usize| v.iter().map(|&v| side_point(sides, first, places.count, i, v)).collect();
-        let points = (0..=2 * places.count).map(row).collect();
+        let t: Vec<f64> = (0..=places.count).map(|i| i as f64 / places.count as f64).collect();
+        // Backwards along the first side, then along the other from behind the leading edge.
+        let mut points = sides.grid(first, &t, &v);
+        points.reverse();
+        points.extend(sides.grid(1 - first, &t[1..], &v));
         let tip = sides.tip();
         let rate = |i: usize| {
             // One-sided, exact for cubics.
