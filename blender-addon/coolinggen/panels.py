@@ -6,9 +6,9 @@ import bpy
 
 from . import blades, live
 from .client import forms
-from .operators.views import Look
 from .properties import switched, word
 from .schema import FORM
+from .views import LOOKS
 
 
 class Sidebar:
@@ -41,7 +41,7 @@ class Main(Sidebar, bpy.types.Panel):
         row.operator("coolinggen.update", icon="FILE_REFRESH")
         row.operator("coolinggen.export", icon="EXPORT", text="Export")
         row = layout.row(align=True)
-        for look, label, _ in Look.__annotations__["look"].keywords["items"]:
+        for look, label, _ in LOOKS:
             row.operator("coolinggen.look", text=label, depress=settings.look == look).look = look
         _state(layout, collection)
 
@@ -243,14 +243,4 @@ def _part(field: forms.Field, path: str) -> type:
 
 CLASSES = [Things, Main, *_parts(), Measured]
 
-
-def register() -> None:
-    """Makes the panels known."""
-    for kind in CLASSES:
-        bpy.utils.register_class(kind)
-
-
-def unregister() -> None:
-    """Takes them away."""
-    for kind in reversed(CLASSES):
-        bpy.utils.unregister_class(kind)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -68,16 +68,16 @@ class BladeSettings(bpy.types.PropertyGroup):
 
 CLASSES = [*_DESIGN, Fault, BladeSettings]
 
+_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
+
 
 def register() -> None:
     """Gives collections blades."""
-    for kind in CLASSES:
-        bpy.utils.register_class(kind)
+    _register()
     bpy.types.Collection.coolinggen = PointerProperty(type=BladeSettings)
 
 
 def unregister() -> None:
     """Takes them away; what files keep stays in them."""
     del bpy.types.Collection.coolinggen
-    for kind in reversed(CLASSES):
-        bpy.utils.unregister_class(kind)
+    _unregister()
