@@ -1,9 +1,10 @@
 //! What stands around the geometry: header, units, products, colours, layers.
 
 use super::StepOptions;
-use super::geometry::{PLACEMENT_LENGTH, Placement};
+use super::geometry::PLACEMENT_LENGTH;
 use super::rewrite::Written;
 use super::text::{List, Real, Ref, Text};
+use crate::forms::Placement;
 use coolinggen_brep::Style;
 use glam::DVec3;
 use std::collections::BTreeMap;
