@@ -44,8 +44,9 @@ def test_areas_of_faces_add_up(model):
 
 
 def test_every_file_is_there_and_no_other(model):
-    expected = {f"{model.name}.{part}.{kind}" for part in model.parts for kind in cli.FORMATS}
-    expected |= {f"{model.name}.assembly.step", f"{model.name}.assembly.glb", f"{model.name}.report.json"}
+    expected = {f"{model.name}.{part}.{kind}" for part in model.parts for kind in cli.FORMATS.values()}
+    expected |= {f"{model.name}.assembly.{kind}" for kind in ("step", "brep", "glb", "nas")}
+    expected |= {f"{model.name}.{kind}" for kind in ("report.json", "groups.json", *cli.WHOLE.values())}
     found = {path.name for path in model.folder.iterdir()}
     assert expected <= found
     assert all(name.endswith(".mtl") for name in found - expected), found - expected
