@@ -21,29 +21,33 @@ pub fn write_stl(
     out: &mut impl Write,
 ) -> Result<(), ExportError> {
     for used in select(model, solids)?.iter().flat_map(|s| s.faces()) {
-        write_region(&model.face(used.face).name, &[used], mesh, out)?;
+        write_region(&model.face(used.face).name, &[used], mesh, 1.0, out)?;
     }
     Ok(())
 }
 
-/// As [`write_stl`], with one region a group.
+/// As [`write_stl`], with one region a group, called as `names` says for each of the groups, all lengths times `scale`. A
+/// face that two of the solids share stands in the file once, seen from the first of them.
 ///
 /// # Errors
 /// [`ExportError::UnknownSolid`], [`ExportError::NoSolid`], [`ExportError::Io`].
-pub fn write_stl_of_groups(
+pub(crate) fn write_stl_of_groups(
     model: &Model,
     solids: &[&str],
     mesh: &Tessellation,
-    grouping: &Grouping,
+    (grouping, names): (&Grouping, &[String]),
+    scale: f64,
     out: &mut impl Write,
 ) -> Result<(), ExportError> {
-    let faces: Vec<FaceUse> = select(model, solids)?.iter().flat_map(|s| s.faces()).collect();
-    for (index, group) in grouping.groups().iter().enumerate() {
-        let own: Vec<FaceUse> =
-            faces.iter().copied().filter(|used| grouping.index_of(used.face) == index).collect();
-        if !own.is_empty() {
-            write_region(&group.name, &own, mesh, out)?;
+    let mut met = vec![false; model.faces.len()];
+    let mut groups: Vec<Vec<FaceUse>> = vec![Vec::new(); names.len()];
+    for used in select(model, solids)?.iter().flat_map(|s| s.faces()) {
+        if !std::mem::replace(&mut met[used.face.0], true) {
+            groups[grouping.index_of(used.face)].push(used);
         }
+    }
+    for (name, faces) in names.iter().zip(&groups).filter(|(_, faces)| !faces.is_empty()) {
+        write_region(name, faces, mesh, scale, out)?;
     }
     Ok(())
 }
@@ -52,6 +56,7 @@ fn write_region(
     name: &str,
     faces: &[FaceUse],
     mesh: &Tessellation,
+    scale: f64,
     out: &mut impl Write,
 ) -> Result<(), ExportError> {
     let name = word(name);
@@ -65,7 +70,7 @@ fn write_region(
             let n = (b - a).normalize_or_zero().cross((c - a).normalize_or_zero()).normalize_or_zero();
             writeln!(out, "facet normal {}\nouter loop", Triple(n))?;
             for p in corners {
-                writeln!(out, "vertex {}", Triple(p))?;
+                writeln!(out, "vertex {}", Triple(p * scale))?;
             }
             writeln!(out, "endloop\nendfacet")?;
         }

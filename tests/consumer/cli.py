@@ -14,7 +14,7 @@ BINARY = Path(os.environ.get("COOLINGGEN", REPOSITORY / "target/release/coolingg
 SAMPLES = Path(os.environ.get("COOLINGGEN_SAMPLES", REPOSITORY / "samples")).resolve()
 #: Formats of files a part, with what the files' names end with, and those of one file for all parts.
 FORMATS = {"step": "step", "brep": "brep", "glb": "glb", "obj": "obj", "stl": "stl", "nastran": "nas"}
-WHOLE = {"gmsh": "gmsh.py"}
+WHOLE = {"gmsh": "gmsh.py", "openfoam": "openfoam"}
 
 DONE, OTHER, REFUSED = 0, 1, 2
 

@@ -10,10 +10,14 @@ import cli
 def test_again_on_one_thread(model, tmp_path):
     again = cli.generate(model.design_path, tmp_path, RAYON_NUM_THREADS="1")
     assert again.returncode == cli.DONE, again.stderr
-    names = sorted(path.name for path in model.folder.iterdir())
-    assert sorted(path.name for path in tmp_path.iterdir()) == names
+    names = files(model.folder)
+    assert files(tmp_path) == names
     differing = [name for name in names if contents(model.folder / name) != contents(tmp_path / name)]
     assert differing == []
+
+
+def files(folder):
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
 
 
 def contents(path):

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Meshes @NAME@ with Gmsh: every solid filled with tetrahedra, neighbours sharing their nodes.
 
-    python3 @NAME@.gmsh.py [--out FILE] [--cells N] [--largest MM] [--surface]
+    python3 @NAME@.gmsh.py [--out FILE] [--cells N] [--turn N] [--largest MM] [--order 2] [--surface]
 
-needs Gmsh's Python module (`pip install gmsh`) and, beside this script, @SHAPE@ and @MANIFEST@. Surfaces are told by
-where they are, not by their numbers; each group of the manifest becomes a physical group, each solid another.
+needs Gmsh's Python module (`pip install gmsh`) and, beside this script, @SHAPE@ and @MANIFEST@.
+Surfaces are told by where they are, not by their numbers; each group of the manifest becomes a physical
+group, each solid another.
 """
 
 import argparse
@@ -19,7 +20,7 @@ HERE = Path(__file__).resolve().parent
 MANIFEST = HERE / "@MANIFEST@"
 SHAPE = HERE / "@SHAPE@"
 
-#: Shares by which Gmsh's area of a face, and its centre over the root of the area, may differ from the manifest's.
+#: Shares by which Gmsh's area of a face, and its centre over the area's root, may differ from the manifest's.
 AREA_SHARE, CENTRE_SHARE = 0.03, 0.03
 
 
@@ -27,7 +28,11 @@ def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     arguments.add_argument("--out", type=Path, default=HERE / "@NAME@.msh", help="file for the mesh")
     arguments.add_argument("--cells", type=float, default=1, help="cells across a hole, slot or wall")
+    arguments.add_argument("--turn", type=float, default=12, help="cells round a whole turn")
     arguments.add_argument("--largest", type=float, help="largest cell, mm; a 25th of the blade if not given")
+    arguments.add_argument(
+        "--order", type=int, default=1, choices=(1, 2), help="2: curved cells of ten nodes"
+    )
     arguments.add_argument("--surface", action="store_true", help="triangles only")
     options = arguments.parse_args()
     manifest = json.loads(MANIFEST.read_text(encoding="utf-8"))
@@ -41,6 +46,9 @@ def main() -> None:
     names = named_surfaces(manifest["faces"])
     add_groups(manifest, names)
     set_sizes(manifest, names, options.cells, options.largest)
+    gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", options.turn)
+    gmsh.option.setNumber("Mesh.ElementOrder", options.order)
+    gmsh.option.setNumber("Mesh.HighOrderOptimize", 1)
     gmsh.model.mesh.generate(2 if options.surface else 3)
     gmsh.write(str(options.out))
     print(f"{options.out}: {len(gmsh.model.mesh.getNodes()[0])} nodes, {len(names)} surfaces")
@@ -92,7 +100,6 @@ def set_sizes(manifest: dict, names: dict[int, str], cells: float, largest: floa
     for point, size in sizes.items():
         gmsh.model.mesh.setSize([(0, point)], size)
     gmsh.option.setNumber("Mesh.MeshSizeMax", largest)
-    gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", 6)
 
 
 main()

@@ -23,6 +23,8 @@ pub(crate) enum Format {
     Nastran,
     /// A script for Gmsh, with the BREP file of all solids that it meshes
     Gmsh,
+    /// A case for OpenFOAM: surfaces, and the dictionaries for snappyHexMesh
+    Openfoam,
 }
 
 impl Format {
@@ -36,12 +38,13 @@ impl Format {
             Self::Stl => "stl",
             Self::Nastran => "nas",
             Self::Gmsh => "gmsh.py",
+            Self::Openfoam => "openfoam",
         }
     }
 
     /// Whether it is written from a mesh.
     pub(super) fn is_mesh(self) -> bool {
-        matches!(self, Self::Glb | Self::Obj | Self::Stl | Self::Nastran)
+        matches!(self, Self::Glb | Self::Obj | Self::Stl | Self::Nastran | Self::Openfoam)
     }
 
     /// Whether several solids in one file stay apart.
@@ -51,7 +54,7 @@ impl Format {
 
     /// Whether it is one for all solids, not a file a part.
     pub(super) fn is_whole(self) -> bool {
-        self == Self::Gmsh
+        matches!(self, Self::Gmsh | Self::Openfoam)
     }
 }
 

@@ -2,12 +2,13 @@
 
 mod format;
 
+use coolinggen_brep::FaceId;
 use coolinggen_cooling::Generated;
 use coolinggen_cooling::report::FaceReport;
 use coolinggen_exporters as exporters;
 use exporters::{
-    ExportError, FacePlace, KeptMeshes, Listed, StepOptions, Tessellation, TessellationOptions, manifest,
-    write_atomically,
+    CaseFile, CaseOptions, ExportError, FacePlace, KeptMeshes, Listed, StepOptions, Tessellation,
+    TessellationOptions, manifest, write_atomically,
 };
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -145,13 +146,15 @@ impl Writing<'_> {
                 let options = StepOptions { name: stem.clone(), ..StepOptions::default() };
                 exporters::write_step(model, names, &options, out)
             }
-            Format::Brep | Format::Gmsh => exporters::write_brep(model, names, out),
+            Format::Brep => exporters::write_brep(model, names, out),
             Format::Glb => exporters::write_glb(model, names, &this.mesh, out),
             Format::Obj => exporters::write_obj(model, names, &this.mesh, &library, out),
             Format::Stl => exporters::write_stl(model, names, &this.mesh, out),
             Format::Nastran => {
                 exporters::write_nastran(model, names, &this.mesh, &this.generated.grouping, out)
             }
+            // Not of parts: see `whole`.
+            Format::Gmsh | Format::Openfoam => Ok(()),
         })?;
         self.listed.push(Listed { file, solids: names.iter().map(|n| (*n).to_owned()).collect() });
         Ok(())
@@ -159,13 +162,43 @@ impl Writing<'_> {
 
     /// What a format writes of all solids at once.
     fn whole(&mut self, format: Format) -> Result<(), ExportFailure> {
+        let name = self.generated.report.name.clone();
+        let target = format!("{name}.{}", format.extension());
+        if format == Format::Openfoam {
+            return self.openfoam_case(&target);
+        }
         let assembly = SolidChoice::Assembly;
         self.part(Format::Brep, assembly, &assembly.names(&self.generated.blade.model))?;
-        let name = self.generated.report.name.clone();
-        self.file(&format!("{name}.{}", format.extension()), |_, out| {
+        self.file(&target, |_, out| {
             let shape = format!("{name}.{}.{}", assembly.part(), Format::Brep.extension());
             exporters::write_gmsh_script(&name, &shape, &manifest_name(&name), out)
         })
+    }
+
+    /// The files of a case, in a folder of their own.
+    fn openfoam_case(&mut self, folder: &str) -> Result<(), ExportFailure> {
+        let Generated { blade, grouping, report, .. } = self.generated;
+        let mut features = vec![None; grouping.groups().len()];
+        for (face, feature) in report.feature_sizes_mm().into_iter().enumerate() {
+            let least: &mut Option<f64> = &mut features[grouping.index_of(FaceId(face))];
+            *least = [*least, feature].into_iter().flatten().reduce(f64::min);
+        }
+        let options = CaseOptions {
+            is_fluid: &|solid| solid.starts_with("coolant/"),
+            is_open: &|role| ["_inlet", "_outlet", "_exit"].iter().any(|end| role.ends_with(end)),
+            features_mm: &features,
+        };
+        let path = self.export.folder.join(folder);
+        let files = exporters::openfoam_case(&blade.model, &self.mesh, grouping, &options)
+            .map_err(|e| ExportFailure::new("write", &path, e))?;
+        for CaseFile { path, content } in files {
+            let path = format!("{folder}/{path}");
+            let parent = self.export.folder.join(&path);
+            let parent = parent.parent().unwrap_or(self.export.folder);
+            std::fs::create_dir_all(parent).map_err(|e| ExportFailure::new("make the folder", parent, e))?;
+            self.file(&path, |_, out| Ok(out.write_all(&content)?))?;
+        }
+        Ok(())
     }
 
     /// What is where in the files.
