@@ -3,10 +3,11 @@
 //! With the integral over `b` (one parameter) inside the one over `a` (the other), a loop contributes
 //! `-+ integral of F(a, b) da` along itself, `F` the integral over `b` from a fixed line. Of that, the part up to
 //! the knot line nearest to the loop is a sum over rectangles, done with tabulated basis functions; what is left
-//! between knot line and loop is a strip within one row of spans.
+//! between knot line and loop is a strip within one row of spans. Small loops (`cells`) and whole ruled faces (`ruled`)
+//! take shorter ways.
 
-use super::Sums;
 use super::net::{Frame, Net, Rectangle};
+use super::{Sums, cells, ruled};
 use crate::boundary::{Path, cuts, walk};
 use crate::gauss::{self, MAX_POINTS};
 use crate::model::Loop;
@@ -16,18 +17,24 @@ use glam::{DVec2, DVec3};
 
 /// Sums over the part of `surface` inside `loops`.
 pub(super) fn integrate(surface: &Surface<DVec3>, loops: &[Loop]) -> Sums {
+    if let Some(sums) = ruled::integrate(surface, loops) {
+        return sums;
+    }
     // X (X . n) has degree 4 p - 1 in each parameter; six points at least, for the root in the area.
     let points = |degree: usize| (2 * degree).max(6);
     let (p, q) = (surface.knots_u().degree(), surface.knots_v().degree());
-    sum_over_loops(surface, loops, [points(p), points(q)])
+    let (mut sums, large) = sum_over_small(surface, loops);
+    sums += sum_over_loops(surface, &large, [points(p), points(q)]);
+    sums
 }
 
 /// Sums over the part of `surface` inside `loops`: rules of growing order until two agree.
 pub(super) fn integrate_rational(surface: &RationalSurface<DVec3>, loops: &[Loop]) -> Sums {
     let h = surface.homogeneous();
-    let mut last = sum_over_loops(h, loops, [10, 10]);
+    let (small, large) = sum_over_small(h, loops);
+    let mut last = sum_over_loops(h, &large, [10, 10]);
     for n in [14, 20, 28, MAX_POINTS] {
-        let next = sum_over_loops(h, loops, [n, n]);
+        let next = sum_over_loops(h, &large, [n, n]);
         // What the moments would be if nothing cancelled.
         let size = next.position.length() + next.area.abs().powf(1.5);
         let moved = (next.flux - last.flux).abs().max((next.position - last.position).length());
@@ -37,10 +44,24 @@ pub(super) fn integrate_rational(surface: &RationalSurface<DVec3>, loops: &[Loop
             break;
         }
     }
+    last += small;
     last
 }
 
-fn sum_over_loops<V: Frame>(surface: &Surface<V>, loops: &[Loop], order: [usize; 2]) -> Sums {
+/// Sums over the small loops, and the others.
+fn sum_over_small<'l, V: Frame>(surface: &Surface<V>, loops: &'l [Loop]) -> (Sums, Vec<&'l Loop>) {
+    let mut sums = Sums::default();
+    let mut large = Vec::new();
+    for lp in loops {
+        match cells::integrate(surface, lp) {
+            Some(inside) => sums += inside,
+            None => large.push(lp),
+        }
+    }
+    (sums, large)
+}
+
+fn sum_over_loops<V: Frame>(surface: &Surface<V>, loops: &[&Loop], order: [usize; 2]) -> Sums {
     let mut sums = Sums::default();
     for lp in loops {
         let outer = cheaper_outer_axis(surface, lp);
