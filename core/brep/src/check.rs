@@ -10,6 +10,7 @@ use crate::model::{EdgeId, Face, FaceId, Loop, Model, Solid};
 use crate::probe::SurfaceProbe;
 use coolinggen_nurbs::ParametricCurve;
 use deviation::Gauge;
+pub use deviation::deviation_amid_spans;
 use std::collections::HashMap;
 
 /// Greatest distance between the end of an edge's curve and its vertex that passes, mm.
@@ -65,10 +66,27 @@ impl SolidCheck {
     }
 }
 
+/// The findings on one face.
+struct FaceCheck {
+    gauge: Gauge,
+    faults: Vec<Fault>,
+}
+
 impl Model {
+    /// [`Model::check_solid`] of every solid of the model, in order; faces that solids share are looked at once.
+    pub fn check_solids(&self) -> Vec<SolidCheck> {
+        let mut known = HashMap::new();
+        self.solids.iter().map(|solid| self.check(solid, &mut known)).collect()
+    }
+
     /// Checks topology and geometry of a solid of this model. Faults of faces that the solid does not use are not
     /// reported.
     pub fn check_solid(&self, solid: &Solid) -> SolidCheck {
+        self.check(solid, &mut HashMap::new())
+    }
+
+    /// Checks a solid; `known` has the faces checked so far.
+    fn check(&self, solid: &Solid, known: &mut HashMap<FaceId, FaceCheck>) -> SolidCheck {
         let mut check = SolidCheck {
             watertight: false,
             genus_found: None,
@@ -92,7 +110,9 @@ impl Model {
         self.check_edges(solid, &mut check);
         let mut gauge = Gauge::default();
         for used in solid.faces() {
-            self.check_face(used.face, &mut gauge, &mut check.faults);
+            let face = known.entry(used.face).or_insert_with(|| self.check_face(used.face));
+            gauge.include(&face.gauge);
+            check.faults.extend(face.faults.iter().cloned());
         }
         (check.max_edge_deviation_mm, check.max_edge_deviation_at) = gauge.deviation;
         (check.max_edge_distance_mm, check.max_edge_distance_at) = gauge.distance;
@@ -160,7 +180,8 @@ impl Model {
     }
 
     /// Loops in the parameter plane, and edges against the surface.
-    fn check_face(&self, id: FaceId, gauge: &mut Gauge, faults: &mut Vec<Fault>) {
+    fn check_face(&self, id: FaceId) -> FaceCheck {
+        let (mut gauge, mut faults) = (Gauge::default(), Vec::new());
         let face = self.face(id);
         let name = || face.name.clone();
         let mut probe = SurfaceProbe::new(&face.surface);
@@ -178,7 +199,7 @@ impl Model {
                     faults.push(Fault::EdgeDeviation { face: name(), edge: coedge.edge, deviation_mm });
                 }
             }
-            self.check_closure(face, index, lp, &mut probe, faults);
+            self.check_closure(face, index, lp, &mut probe, &mut faults);
             // A loop that is wrong anyway has no sense to speak of.
             if faults.len() == before {
                 let area = topology::rough_area(lp);
@@ -187,6 +208,7 @@ impl Model {
                 }
             }
         }
+        FaceCheck { gauge, faults }
     }
 
     /// The jumps between parameter curves, which must be none, or on a pole of the surface.

@@ -39,8 +39,9 @@ struct Region<'s, V> {
 impl<'s, V: Frame> Region<'s, V> {
     fn new(surface: &'s Surface<V>, lp: &'s Loop) -> Option<Self> {
         let points = || lp.coedges.iter().flat_map(|c| c.pcurve.points());
-        // Loops of straight lines are better summed up span by span.
-        if lp.coedges.iter().all(|c| c.pcurve.degree() == 1) {
+        let degrees = || lp.coedges.iter().map(|c| c.pcurve.degree());
+        // Loops of straight lines are better summed up span by span; cubics are what parameter curves mostly are.
+        if degrees().all(|degree| degree == 1) || degrees().any(|degree| degree > 3) {
             return None;
         }
         let (low, high) =
@@ -72,8 +73,8 @@ impl<'s, V: Frame> Region<'s, V> {
         let count = (self.lines[0].len() - 1) * rows;
         let mut grids = Vec::with_capacity(count);
         for index in 0..count {
-            let grid = self.grid::<K>(index / rows, index % rows);
-            if !legendre.resolves(&grid) {
+            let (grid, noise) = self.grid::<K>(index / rows, index % rows);
+            if !legendre.resolves(&grid, noise) {
                 return None;
             }
             grids.push(grid);
@@ -94,8 +95,9 @@ impl<'s, V: Frame> Region<'s, V> {
         Some(sums)
     }
 
-    /// Points and normals (u cross v) of a cell's grid, v running fastest.
-    fn grid<const K: usize>(&self, column: usize, row: usize) -> [[(DVec3, DVec3); K]; K] {
+    /// Points and normals (u cross v) of a cell's grid, v running fastest, and what rounding makes of the normals,
+    /// relative to their length: derivatives are differences of control points far from the origin.
+    fn grid<const K: usize>(&self, column: usize, row: usize) -> ([[(DVec3, DVec3); K]; K], f64) {
         let (u, v) = (self.ends(0, column), self.ends(1, row));
         let [ku, kv] = self.knots;
         let (p, q) = (ku.degree(), kv.degree());
@@ -111,6 +113,7 @@ impl<'s, V: Frame> Region<'s, V> {
         let (mut across, mut slopes) = ([V::default(); MAX_DEGREE + 1], [V::default(); MAX_DEGREE + 1]);
         let stride = self.surface.counts().1;
         let mut out = [[(DVec3::ZERO, DVec3::ZERO); K]; K];
+        let mut noise = 0.0f64;
         for (a, out) in out.iter_mut().enumerate() {
             span_u.slopes(u.0 + (u.1 - u.0) * rule[a].0, &mut n, &mut d);
             across[..=q].fill(V::default());
@@ -128,8 +131,14 @@ impl<'s, V: Frame> Region<'s, V> {
                 let [point, along_u, along_v] = point.frame(along_u, weighted_sum(d, &across));
                 *out = (point, along_u.cross(along_v));
             }
+            let size =
+                |weights: &[f64], along: DVec3| weights.iter().map(|w| w.abs()).sum::<f64>() / along.length();
+            let (e, l) = (&at_v[0].1[..=q], &at_v[0].0[..=q]);
+            let point = weighted_sum(l, &across);
+            let [point, along_u, along_v] = point.frame(weighted_sum(l, &slopes), weighted_sum(e, &across));
+            noise = noise.max(point.length() * (size(&d[..=p], along_u) + size(e, along_v)));
         }
-        out
+        (out, noise * f64::EPSILON)
     }
 
     /// Integrates the cells' polynomials along the loop.
@@ -154,7 +163,8 @@ impl<'s, V: Frame> Region<'s, V> {
 
     /// Adds the piece of `path` from `start` to `end`, which lies in one cell.
     fn piece<const K: usize>(&self, path: &Path<'_>, start: f64, end: f64, moments: &mut [[[Lanes; K]; K]]) {
-        let middle = path.point(0.5 * (start + end));
+        let cubic = Cubic::of(path, start, end);
+        let middle = cubic.at(0.5);
         let place = |axis: usize| {
             let lines = &self.lines[axis];
             lines[1..lines.len() - 1].partition_point(|&k| k <= middle[axis])
@@ -164,8 +174,8 @@ impl<'s, V: Frame> Region<'s, V> {
         let ((u0, u1), (v0, v1)) = (self.ends(0, column), self.ends(1, row));
         // In a cell both coordinates run from -1 to 1.
         let scale = DVec2::new(2.0 / (u1 - u0), 2.0 / (v1 - v0));
-        let local = |q: DVec2| (q - DVec2::new(u0, v0)) * scale - DVec2::ONE;
-        let (from, to) = (local(path.point(start)), local(path.point(end)));
+        let cubic = cubic.scaled(DVec2::new(u0, v0), scale);
+        let (from, to) = (cubic.at(0.0), cubic.at(1.0));
         if column > 0 {
             // Cells on the left are filled from side to side: of their polynomials only those constant in u remain.
             let (from, to) = (antiderivatives::<K, f64>(from.y), antiderivatives::<K, f64>(to.y));
@@ -187,13 +197,10 @@ impl<'s, V: Frame> Region<'s, V> {
             (3 * K).div_ceil(2).next_multiple_of(4) + 4
         };
         for nodes in gauss::rule(n).chunks_exact(4) {
-            let (mut x, mut y, mut rate) = (Lanes::from(0.0), Lanes::from(0.0), Lanes::from(0.0));
-            for (lane, &(s, w)) in nodes.iter().enumerate() {
-                let (at, slope) = path.slope(start + (end - start) * s);
-                let at = local(at);
-                (x.0[lane], y.0[lane]) = (at.x, at.y);
-                rate.0[lane] = w * (end - start) * slope.y * scale.y;
-            }
+            let s = Lanes([0, 1, 2, 3].map(|lane| nodes[lane].0));
+            let weight = Lanes([0, 1, 2, 3].map(|lane| nodes[lane].1));
+            let [x, y, rate] = cubic.four(s);
+            let rate = rate * weight;
             let across = antiderivatives::<K, Lanes>(x);
             let along = polynomials::<K, Lanes>(y);
             for j in 0..K {
@@ -203,6 +210,41 @@ impl<'s, V: Frame> Region<'s, V> {
                 }
             }
         }
+    }
+}
+
+/// A piece of a path over [0, 1] as a cubic in powers of its parameter.
+struct Cubic([DVec2; 4]);
+
+impl Cubic {
+    /// The piece of `path` from `start` to `end`, of degree 3 at most.
+    fn of(path: &Path<'_>, start: f64, end: f64) -> Self {
+        let ((p, d), (q, e)) = (path.slope(start), path.slope(end));
+        let (d, e) = (d * (end - start), e * (end - start));
+        Self([p, d, (q - p) * 3.0 - d * 2.0 - e, (p - q) * 2.0 + d + e])
+    }
+
+    fn at(&self, s: f64) -> DVec2 {
+        let Self([a, b, c, d]) = *self;
+        a + (b + (c + d * s) * s) * s
+    }
+
+    /// The same with coordinates that run from -1 at `low`, with `scale`.
+    fn scaled(&self, low: DVec2, scale: DVec2) -> Self {
+        let Self([a, b, c, d]) = *self;
+        Self([(a - low) * scale - DVec2::ONE, b * scale, c * scale, d * scale])
+    }
+
+    /// Both coordinates and the derivative of the second one at four parameters.
+    #[inline(always)]
+    fn four(&self, s: Lanes) -> [Lanes; 3] {
+        let Self([a, b, c, d]) = *self;
+        let value = |k: usize| {
+            let [a, b, c, d] = [a[k], b[k], c[k], d[k]].map(Lanes::from);
+            a + (b + (c + d * s) * s) * s
+        };
+        let slope = Lanes::from(b.y) + (Lanes::from(2.0 * c.y) + Lanes::from(3.0 * d.y) * s) * s;
+        [value(0), value(1), slope]
     }
 }
 
@@ -273,9 +315,9 @@ impl<const K: usize> Legendre<K> {
         out
     }
 
-    /// Whether the integrands on a grid have no terms to speak of that it cannot show: the last two it shows along its
-    /// middle lines have vanished.
-    fn resolves(&self, grid: &[[(DVec3, DVec3); K]; K]) -> bool {
+    /// Whether the integrands on a grid, with rounding by `noise`, have no terms to speak of that it cannot show: the
+    /// last two it shows along its middle lines have vanished.
+    fn resolves(&self, grid: &[[(DVec3, DVec3); K]; K], noise: f64) -> bool {
         let along = |line: &dyn Fn(usize) -> (DVec3, DVec3)| {
             let (mut last, mut before) = ([0.0; 5], [0.0; 5]);
             let mut scale = [0.0f64; 5];
@@ -293,7 +335,8 @@ impl<const K: usize> Legendre<K> {
             }
             let factor = (2 * K - 1) as f64;
             (0..5).all(|i| {
-                last[i].abs() * factor <= LAST * scale[i] && before[i].abs() * factor <= BEFORE * scale[i]
+                let (last, before) = (last[i].abs() * factor, before[i].abs() * factor);
+                last <= (LAST + noise) * scale[i] && before <= (BEFORE + noise) * scale[i]
             })
         };
         along(&|k| grid[k][K / 2]) && along(&|k| grid[K / 2][k])

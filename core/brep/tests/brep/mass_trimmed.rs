@@ -12,12 +12,12 @@ use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-fn coedge(pcurve: Curve<DVec2>) -> Coedge {
+pub(crate) fn coedge(pcurve: Curve<DVec2>) -> Coedge {
     Coedge { edge: EdgeId(0), forward: true, pcurve }
 }
 
 /// A closed curve, counterclockwise, of mean radius `radius` with `n` spans.
-fn blob(n: usize, center: DVec2, radius: f64, wave: &[f64]) -> Loop {
+pub(crate) fn blob(n: usize, center: DVec2, radius: f64, wave: &[f64]) -> Loop {
     let t: Vec<f64> = (0..=n).map(|i| i as f64).collect();
     let points: Vec<DVec2> = (0..=n)
         .map(|i| {
@@ -46,11 +46,11 @@ fn knots(degree: usize, gaps: &[f64]) -> Knots {
     Knots::clamped(degree, &breaks).unwrap()
 }
 
-fn face(surface: impl Into<SurfaceGeometry>, loops: Vec<Loop>) -> Face {
+pub(crate) fn face(surface: impl Into<SurfaceGeometry>, loops: Vec<Loop>) -> Face {
     Face { name: "face".into(), surface: surface.into(), loops, style: style() }
 }
 
-fn assert_close(a: &FaceIntegrals, b: &FaceIntegrals, tolerance: f64) {
+pub(crate) fn assert_close(a: &FaceIntegrals, b: &FaceIntegrals, tolerance: f64) {
     let size = b.area_mm2 * (1.0 + b.centroid_mm.length());
     assert!((a.area_mm2 - b.area_mm2).abs() < tolerance * b.area_mm2, "area {} {}", a.area_mm2, b.area_mm2);
     assert!((a.centroid_mm - b.centroid_mm).length() < tolerance * size / b.area_mm2, "{a:?} {b:?}");

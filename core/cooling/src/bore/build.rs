@@ -63,26 +63,18 @@ impl Drill {
         names: &BoreNames<'_>,
         clear: &mut dyn FnMut([Rim; 2]) -> Result<(), BoreError>,
     ) -> Result<Bored, BoreError> {
-        let target = |model| ends.map(|(faces, _)| Target { model, faces });
-        let targets = target(&*model);
+        let targets = [0, 1].map(|side| Target::new(&*model, ends[side].0));
         let last = shape.sections.len() - 1;
         let end_legs =
             [end_legs(&targets[0], shape, 0, &ends[0].1)?, end_legs(&targets[1], shape, last, &ends[1].1)?];
         let pieces = pieces(shape, &end_legs);
-        let spans: Vec<usize> = (pieces.iter())
-            .map(|piece| self.spans(shape, &targets, &end_legs, piece))
-            .collect::<Result<_, _>>()?;
+        let mut spans = Vec::with_capacity(pieces.len());
         let mut traces: [Vec<Option<(FaceId, Trace)>>; 2] = [Vec::new(), Vec::new()];
-        for (side, section) in [(0, 0), (1, last)] {
-            for (piece, &spans) in pieces.iter().zip(&spans) {
-                traces[side].push(self.end_trace(
-                    shape,
-                    &targets,
-                    &end_legs,
-                    (side, section),
-                    piece,
-                    spans,
-                )?);
+        for piece in &pieces {
+            let (count, pair) = self.end_traces(shape, &targets, &end_legs, piece)?;
+            spans.push(count);
+            for (traces, trace) in traces.iter_mut().zip(pair) {
+                traces.push(trace);
             }
         }
         clear([rim(&traces[0]), rim(&traces[1])])?;
@@ -121,14 +113,15 @@ impl Drill {
         Ok(Bored { faces, imprints: [lower, upper] })
     }
 
-    /// Spans enough for a piece at both ends.
-    fn spans(
+    /// The delimiting curves of a piece at both ends, with the faces they lie on, in as many spans as both need; none
+    /// for points.
+    fn end_traces(
         &mut self,
         shape: &BoreShape,
         targets: &[Target<'_>; 2],
         end_legs: &[Vec<Vec<Leg>>; 2],
         piece: &Piece,
-    ) -> Result<usize, BoreError> {
+    ) -> Result<(usize, [Option<(FaceId, Trace)>; 2]), BoreError> {
         let mut spans = match shape.sections[0].paths[piece.path] {
             // As fine as keeps a middle ring within 1e-6 of its radius.
             Path::Arc { sweep, .. } => {
@@ -137,35 +130,33 @@ impl Drill {
             Path::Line { .. } | Path::Fan { .. } | Path::Point(_) => 4,
         };
         let last = shape.sections.len() - 1;
-        for (side, section) in [(0, 0), (1, last)] {
-            if shape.sections[section].paths[piece.path].is_point() {
-                continue;
+        let rays = [0, last].map(|section| move |t: f64| ray(shape, section, piece.path, t));
+        let ends = [0, 1].map(|side| {
+            let section = [0, last][side];
+            (!shape.sections[section].paths[piece.path].is_point()).then(|| {
+                let leg = leg_of(&end_legs[side][piece.path], piece);
+                stretch(shape, piece, &targets[side], leg, &rays[side])
+            })
+        });
+        let mut traces = [None, None];
+        for (end, trace) in ends.iter().zip(&mut traces) {
+            if let Some(stretch) = end {
+                let (count, found) = stretch.traced_closely(&mut self.interpolators, spans)?;
+                spans = count;
+                *trace = Some((count, stretch.face, found));
             }
-            let rays = |t: f64| ray(shape, section, piece.path, t);
-            let leg = leg_of(&end_legs[side][piece.path], piece);
-            let stretch = stretch(shape, piece, targets[side], leg, &rays);
-            spans = stretch.spans_needed(&mut self.interpolators, spans)?;
         }
-        Ok(spans)
-    }
-
-    /// The delimiting curve of a piece at one end, with the face it lies on; none for points.
-    fn end_trace(
-        &mut self,
-        shape: &BoreShape,
-        targets: &[Target<'_>; 2],
-        end_legs: &[Vec<Vec<Leg>>; 2],
-        (side, section): (usize, usize),
-        piece: &Piece,
-        spans: usize,
-    ) -> Result<Option<(FaceId, Trace)>, BoreError> {
-        if shape.sections[section].paths[piece.path].is_point() {
-            return Ok(None);
+        // What served one end may be too few for the other.
+        let mut out = [None, None];
+        for ((end, trace), out) in ends.iter().zip(traces).zip(&mut out) {
+            *out = match (end, trace) {
+                (Some(stretch), Some((count, face, _))) if count != spans => {
+                    Some((face, stretch.traced(&mut self.interpolators, spans)?))
+                }
+                (_, trace) => trace.map(|(_, face, trace)| (face, trace)),
+            };
         }
-        let rays = |t: f64| ray(shape, section, piece.path, t);
-        let leg = leg_of(&end_legs[side][piece.path], piece);
-        let stretch = stretch(shape, piece, targets[side], leg, &rays);
-        Ok(Some((leg.face, stretch.traced(&mut self.interpolators, spans)?)))
+        Ok((spans, out))
     }
 
     /// The curve of a piece in a section between the ends.
@@ -204,13 +195,13 @@ fn rim(traces: &[Option<(FaceId, Trace)>]) -> Rim {
 }
 
 /// What is to be traced of a piece on its leg.
-fn stretch<'a>(
+fn stretch<'a, 'm>(
     shape: &BoreShape,
     piece: &Piece,
-    target: Target<'a>,
+    target: &'a Target<'m>,
     leg: &Leg,
     rays: &'a dyn Fn(f64) -> Ray,
-) -> Stretch<'a> {
+) -> Stretch<'a, 'm> {
     let (range, grading) = ((piece.from, piece.to), shape.sections[0].paths[piece.path].grading());
     Stretch { target, face: leg.face, rays, range, grading, start: leg.start }
 }

@@ -1,9 +1,10 @@
 //! What a bore ends on: a set of faces joined at their borders.
 
 use super::BoreError;
-use coolinggen_brep::{EdgeId, FaceId, Model};
-use coolinggen_nurbs::{LineHit, ParametricCurve, ParametricSurface, line_meets_surface};
+use coolinggen_brep::{EdgeId, FaceId, Model, SurfaceGeometry, SurfaceProbe};
+use coolinggen_nurbs::{LineHit, ParametricCurve, ParametricSurface, line_meets};
 use glam::{DMat3, DVec2, DVec3};
+use std::cell::RefCell;
 
 /// A line with its derivatives in the parameter of the section's path.
 #[derive(Clone, Copy, Debug)]
@@ -58,17 +59,33 @@ enum Side {
 }
 
 /// Faces that a bore may end on.
-#[derive(Clone, Copy)]
 pub(crate) struct Target<'m> {
-    pub(crate) model: &'m Model,
-    pub(crate) faces: &'m [FaceId],
+    model: &'m Model,
+    faces: &'m [FaceId],
+    /// The face met last: the next meeting is mostly nearby.
+    last: RefCell<Option<(FaceId, SurfaceProbe<'m>)>>,
 }
 
-impl Target<'_> {
+impl<'m> Target<'m> {
+    pub(super) fn new(model: &'m Model, faces: &'m [FaceId]) -> Self {
+        Self { model, faces, last: RefCell::new(None) }
+    }
+
+    /// The surface of a face.
+    pub(super) fn surface(&self, face: FaceId) -> &'m SurfaceGeometry {
+        &self.model.face(face).surface
+    }
+
     /// Where a ray meets a face, from parameters nearby.
     pub(super) fn meet(&self, face: FaceId, ray: &Ray, near: DVec2, along: f64) -> Option<Hit> {
-        let surface = &self.model.face(face).surface;
-        let hit = line_meets_surface(surface, ray.origin, ray.direction, (near.x, near.y), along)?;
+        let surface = self.surface(face);
+        let mut last = self.last.borrow_mut();
+        let probe = match &mut *last {
+            Some((id, probe)) if *id == face => probe,
+            other => &mut other.insert((face, SurfaceProbe::new(surface))).1,
+        };
+        let at = |u, v| probe.first_derivatives(u, v);
+        let hit = line_meets(surface.domain(), at, ray.origin, ray.direction, (near.x, near.y), along)?;
         Some(with_slopes(&hit, ray))
     }
 

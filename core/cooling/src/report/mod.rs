@@ -274,8 +274,7 @@ impl Report {
     }
 
     fn measure_solids(&mut self, model: &Model, integrals: &[FaceIntegrals]) -> Result<(), BuildError> {
-        for solid in &model.solids {
-            let check = model.check_solid(solid);
+        for (solid, check) in model.solids.iter().zip(model.check_solids()) {
             if let Some(what) = unsound(model, &check) {
                 return Err(BuildError::Unsound { solid: solid.name.clone(), what });
             }
