@@ -3,7 +3,7 @@
 use crate::mass_trimmed::{assert_close, blob, coedge, face};
 use coolinggen_brep::{FaceIntegrals, Loop, face_integrals};
 use coolinggen_nurbs::{Curve, Knots, ParametricCurve, ParametricSurface, Surface};
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec2Swizzles};
 use proptest::prelude::*;
 
 /// Gauss's rule with five points on [0, 1], over `parts` equal parts.
