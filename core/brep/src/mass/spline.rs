@@ -166,26 +166,24 @@ impl<V: Frame> Sweep<'_, '_, V> {
         let span_b = &self.spans[inner];
         let order = self.net.order;
         let (from, to) = (path.point(start), path.point(end));
-        let middle = path.point(0.5 * (start + end));
-        let ratio = |s: &Span, way: f64| way.abs() / (s.end - s.start);
-        let extent = |way: DVec2| ratio(&span_a, way[outer]).max(ratio(span_b, way[inner]));
-        let way = extent(middle - from).max(extent(to - middle));
         let n = match path {
             Path::Line { .. } if from[inner] == to[inner] => order[outer],
             // The inner integral adds the degree in `b`.
             Path::Line { .. } => order[outer] + order[inner],
-            // The degree along a cubic path is 71, but little of it shows where the path is short, or nearly straight,
-            // against the span: a term of degree k by the k-th power of what it crosses.
-            Path::Spline { .. } if way < 0.05 => (order[outer].max(order[inner]) + 2).min(5),
-            Path::Spline { .. } if way < 0.2 => order[outer].max(order[inner]) + 2,
             Path::Spline { .. } => {
+                // The degree along a cubic path is 71, but little of it shows where the path is short, or nearly
+                // straight, against the span.
+                let middle = path.point(0.5 * (start + end));
+                let ratio = |s: &Span, way: f64| way.abs() / (s.end - s.start);
+                let extent = |way: DVec2| ratio(&span_a, way[outer]).max(ratio(span_b, way[inner]));
                 let bend = extent(0.5 * (from + to) - middle);
-                order[outer] + order[inner] + if bend < 0.01 { 0 } else { 12 }
+                if extent(middle - from).max(extent(to - middle)) < 0.05 {
+                    order[outer].max(order[inner]) + 2
+                } else {
+                    order[outer] + order[inner] + if bend < 0.01 { 0 } else { 12 }
+                }
             }
         };
-        let height =
-            [from, middle, to].map(|q| ratio(span_b, q[inner] - line)).into_iter().fold(0.0, f64::max);
-        let across = if height < 0.05 { order[inner].min(5) } else { order[inner] };
         let (mut na, mut da) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
         let (mut nb, mut db) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
         let mut rows = [[V::default(); MAX_DEGREE + 1]; 2];
@@ -204,7 +202,7 @@ impl<V: Frame> Sweep<'_, '_, V> {
                 let b = span_b.first() + k;
                 (rows[0][k], rows[1][k]) = self.net.across(span_a.first(), b, &na[..=p], &da[..=p]);
             }
-            for &(s, w) in gauss::rule(across) {
+            for &(s, w) in gauss::rule(order[inner]) {
                 span_b.slopes(line + height * s, &mut nb, &mut db);
                 let value = weighted_sum(&nb[..=q], &rows[0]);
                 let along_a = weighted_sum(&nb[..=q], &rows[1]);

@@ -46,6 +46,9 @@ struct Piece {
     to: f64,
 }
 
+/// A delimiting curve with the face it lies on; none for a point.
+type EndTrace = Option<(FaceId, Trace)>;
+
 /// A ring of the bore, a vertex where each piece begins and an edge for each piece that has a length.
 struct Ring {
     vertices: Vec<VertexId>,
@@ -69,7 +72,7 @@ impl Drill {
             [end_legs(&targets[0], shape, 0, &ends[0].1)?, end_legs(&targets[1], shape, last, &ends[1].1)?];
         let pieces = pieces(shape, &end_legs);
         let mut spans = Vec::with_capacity(pieces.len());
-        let mut traces: [Vec<Option<(FaceId, Trace)>>; 2] = [Vec::new(), Vec::new()];
+        let mut traces: [Vec<EndTrace>; 2] = [Vec::new(), Vec::new()];
         for piece in &pieces {
             let (count, pair) = self.end_traces(shape, &targets, &end_legs, piece)?;
             spans.push(count);
@@ -121,7 +124,7 @@ impl Drill {
         targets: &[Target<'_>; 2],
         end_legs: &[Vec<Vec<Leg>>; 2],
         piece: &Piece,
-    ) -> Result<(usize, [Option<(FaceId, Trace)>; 2]), BoreError> {
+    ) -> Result<(usize, [EndTrace; 2]), BoreError> {
         let mut spans = match shape.sections[0].paths[piece.path] {
             // As fine as keeps a middle ring within 1e-6 of its radius.
             Path::Arc { sweep, .. } => {
@@ -181,7 +184,7 @@ impl Drill {
 }
 
 /// The delimiting curves of one end as a polygon.
-fn rim(traces: &[Option<(FaceId, Trace)>]) -> Rim {
+fn rim(traces: &[EndTrace]) -> Rim {
     const LEAST_STEPS: usize = 24;
     let traces: Vec<&(FaceId, Trace)> = traces.iter().flatten().collect();
     let steps = LEAST_STEPS.div_ceil(traces.len().max(1));
@@ -446,13 +449,7 @@ fn points_away(model: &Model, face: FaceId, shape: &BoreShape) -> bool {
 }
 
 /// A ring as the border of a hole in the faces it lies on.
-fn hole(
-    model: &Model,
-    shape: &BoreShape,
-    mouth: &Mouth,
-    ring: &Ring,
-    traces: &[Option<(FaceId, Trace)>],
-) -> Vec<RingPiece> {
+fn hole(model: &Model, shape: &BoreShape, mouth: &Mouth, ring: &Ring, traces: &[EndTrace]) -> Vec<RingPiece> {
     let (_, u, v) = model.face(mouth.face).surface.first_derivatives(mouth.at.x, mouth.at.y);
     // Rings run counterclockwise about the axis; holes clockwise about the face's normal.
     let forward = u.cross(v).dot(shape.frame.axis) < 0.0;
