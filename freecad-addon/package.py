@@ -23,7 +23,7 @@ def package(folder: Path, binary: Path) -> Path:
         shutil.copy(ROOT / name, made)
     place = made / "freecad-addon" / "freecad" / "coolinggen" / "bin"
     place.mkdir()
-    shutil.copy(binary, place)
+    shutil.copy(binary, place / f"coolinggen{binary.suffix if binary.suffix == '.exe' else ''}")
     return made
 
 

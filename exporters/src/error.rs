@@ -42,6 +42,8 @@ pub enum ExportError {
         /// What overflows.
         what: &'static str,
     },
+    /// It was told to stop.
+    Stopped,
 }
 
 impl fmt::Display for ExportError {
@@ -57,6 +59,7 @@ impl fmt::Display for ExportError {
             Self::Untriangulable { face } => {
                 write!(f, "face `{face}`: its border crosses itself in the parameters of its surface")
             }
+            Self::Stopped => write!(f, "it was told to stop"),
             Self::TooLarge { what } => write!(f, "{what} do not fit the format's 32-bit counters"),
         }
     }

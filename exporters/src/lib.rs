@@ -19,4 +19,4 @@ pub use glb::write_glb;
 pub use obj::{write_mtl, write_obj};
 pub use step::{StepOptions, write_step};
 pub use stl::write_stl;
-pub use tessellate::{FaceMesh, Tessellation, TessellationOptions, tessellate};
+pub use tessellate::{FaceMesh, KeptMeshes, Tessellation, TessellationOptions, tessellate, tessellate_again};

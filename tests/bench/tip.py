@@ -42,7 +42,7 @@ def generate(folder: Path, sample: str, tolerance: float) -> Path:
 def checked(folder: Path, steps: list[Path]) -> dict[str, dict]:
     """What FreeCAD says of the files."""
     jobs, answers = folder / "jobs.json", folder / "answers.jsonl"
-    jobs.write_text(json.dumps([str(step) for step in steps]), encoding="utf-8")
+    jobs.write_text(json.dumps([(str(step), False) for step in steps]), encoding="utf-8")
     environment = {**os.environ, "WITNESS_JOBS": str(jobs), "WITNESS_ANSWERS": str(answers)}
     witness = HERE.parent / "consumer/freecad_witness.py"
     subprocess.run(["freecadcmd", str(witness)], env=environment, check=True, capture_output=True)

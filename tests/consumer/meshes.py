@@ -43,6 +43,26 @@ def _keys(sides: np.ndarray) -> np.ndarray:
     return sides[:, 0].astype(np.int64) << 32 | sides[:, 1].astype(np.int64)
 
 
+def genus(regions: list[Region]) -> float:
+    """Handles by Euler's formula, all shells together: shells - (V - E + F) / 2 with E = 3 F / 2."""
+    stored = np.concatenate([r.stored for r in regions]) + 0.0
+    points, corner = np.unique(stored.reshape(-1, 3), axis=0, return_inverse=True)
+    triangles = corner.reshape(-1, 3)
+    return shells(triangles, len(points)) - (len(points) - len(triangles) / 2) / 2
+
+
+def shells(triangles: np.ndarray, points: int) -> int:
+    """Pieces that hang together: every point takes the least number among its neighbours', and the number
+    which that one has taken, until nothing changes."""
+    least = np.arange(points)
+    while True:
+        before = least.copy()
+        np.minimum.at(least, triangles, least[triangles].min(axis=1, keepdims=True))
+        least = least[least]
+        if (least == before).all():
+            return len(np.unique(least))
+
+
 def degenerate(regions: list[Region]) -> int:
     """Triangles with two corners at one point."""
     stored = np.concatenate([r.stored for r in regions])

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Builds every sample and draws it: docs/gallery/<sample>.png.
+"""Builds every sample and draws it: docs/gallery/<sample>.png; and some as whole rows: <sample>-row.png.
 
     tests/.venv-render/bin/python tests/render/gallery.py [--samples rotor,c3x] [--out docs/gallery]
 
@@ -9,6 +9,7 @@ Uses the binary that COOLINGGEN names, or target/release/coolinggen.
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import subprocess
 import sys
@@ -16,24 +17,45 @@ import tempfile
 from pathlib import Path
 
 from picture import Stage, save
-from solids import read
+from solids import Solid, read
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 BINARY = Path(os.environ.get("COOLINGGEN", REPOSITORY / "target/release/coolinggen"))
 AZIMUTH, ELEVATION, CUT, WIDTH = 30, 28, 0.5, 1600
+ROWS = {
+    "francis": {"count": 13, "hub": {"thickness": 8}, "shroud": {"thickness": 6}},
+    "kaplan": {"count": 4, "hub": {"thickness": 10}},
+    "medial-propeller": {"count": 4, "hub": {"thickness": 4}},
+    "propeller": {"count": 3, "hub": {"thickness": 8}},
+}
 
 
-def draw(design: Path, out: Path) -> None:
+def built(design: Path) -> list[Solid]:
+    """The solids of a design."""
     with tempfile.TemporaryDirectory() as folder:
         command = [BINARY, "generate", design, "--out", folder, "--format", "glb", "--solids", "assembly"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
             sys.exit(f"{design.name}: exit {done.returncode}\n{done.stdout}{done.stderr}")
-        solids = read(sorted(Path(folder).glob("*.glb")))
+        return read(sorted(Path(folder).glob("*.glb")))
+
+
+def draw(design: Path, out: Path) -> None:
+    solids = built(design)
     cooled = any(not solid.is_metal for solid in solids)
     inside = "open" if any(solid.is_insert for solid in solids) else "cut"
     views = ["glass", inside, "coolant"] if cooled else ["metal"]
     save(Stage(solids, AZIMUTH, ELEVATION).shoot(views, CUT, WIDTH if cooled else WIDTH // 2), out)
+
+
+def draw_row(design: Path, pattern: dict, out: Path) -> None:
+    """The row of a sample: as it is, and cut through its axis."""
+    row = json.loads(design.read_text(encoding="utf-8")) | {"pattern": pattern}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / design.name
+        path.write_text(json.dumps(row), encoding="utf-8")
+        stage = Stage(built(path), 40, 24, along_axis=True)
+    save(stage.shoot(["row", "half"], CUT, WIDTH), out)
 
 
 def main() -> None:
@@ -49,6 +71,11 @@ def main() -> None:
         if names is None or design.stem in names:
             draw(design, options.out / f"{design.stem}.png")
             print(options.out / f"{design.stem}.png")
+    for stem, pattern in ROWS.items():
+        row = f"{stem}-row"
+        if names is None or row in names:
+            draw_row(REPOSITORY / f"samples/{stem}.json", pattern, options.out / f"{row}.png")
+            print(options.out / f"{row}.png")
 
 
 if __name__ == "__main__":

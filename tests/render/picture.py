@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """A picture of exported solids, drawn without a display.
 
-    picture.py OUT.png FILE.glb|FILES.stl [--view glass,cut,coolant] [--cut 0.5] [--azimuth 30]
+    picture.py OUT.png FILE.glb|FILES.stl [--view glass,cut,coolant] [--cut 0.5] [--azimuth 30] [--along-axis]
 
 Views stand side by side: `metal` whole, `glass` with the coolant showing through, `cut` open at a part of its
-height with the coolant rising out of it, `open` without coolant, inserts cut off higher up, `coolant` alone.
+height with the coolant rising out of it, `open` without coolant, inserts cut off higher up, `coolant` alone;
+`row` whole but for the near half of its shroud, `half` all of a row cut through its axis, which is x.
 """
 
 from __future__ import annotations
@@ -46,13 +47,14 @@ def studio() -> pv.Texture:
 class Stage:
     """A plotter with the room's light, and the views put on it from left to right."""
 
-    def __init__(self, solids: list[Solid], azimuth: float, elevation: float):
+    def __init__(self, solids: list[Solid], azimuth: float, elevation: float, along_axis: bool = False):
+        """Seen from so far, in degrees, beside the blade's broad side, or beside the machine's axis x."""
         self.solids = solids
         metal = [s for s in solids if s.is_metal] or solids
         points = np.concatenate([s.closed.points for s in metal])
         self.low, self.high = points.min(0), points.max(0)
         self.centre = (self.low + self.high) / 2
-        self.facing = broad_side(points)
+        self.facing = 0.0 if along_axis else broad_side(points)
         self.azimuth, self.elevation = np.radians(azimuth), np.radians(elevation)
         self.plotter = pv.Plotter(off_screen=True, lighting="none")
         self.plotter.set_background("white")
@@ -108,13 +110,33 @@ class Stage:
             self.add_lines(solid.edges, shift)
         elif kind in ("cut", "open"):
             self.sawn(solid, shift, cut, METAL)
+        elif kind == "half" or solid.is_shroud:
+            self.halved(solid, shift)
+        elif kind == "row":
+            self.add(solid.shaded, shift, METAL, **STEEL)
+            self.add_lines(solid.edges, shift)
 
     def sawn(self, solid: Solid, shift: np.ndarray, cut: float, colour: str) -> None:
         """The solid below a part of the blade's height, with the face that the saw leaves."""
-        plane = {"normal": "z", "origin": (0, 0, self.low[2] + cut * (self.high[2] - self.low[2]))}
+        height = self.low[2] + cut * (self.high[2] - self.low[2])
+        self.below(solid, shift, {"normal": (0, 0, 1), "origin": (0, 0, height)}, colour)
+
+    def halved(self, solid: Solid, shift: np.ndarray) -> None:
+        """The half of a solid beyond the upright plane through the axis, as the camera sees it."""
+        self.below(
+            solid, shift, {"normal": (0, np.sign(self.camera_axes()[2][1]), 0), "origin": (0, 0, 0)}, METAL
+        )
+
+    def below(self, solid: Solid, shift: np.ndarray, plane: dict, colour: str) -> None:
+        """The solid on the near side of a plane, with the face that the saw leaves."""
+        above = (solid.closed.points - plane["origin"]) @ plane["normal"] > 0
+        if above.all():
+            return
         section = solid.closed.slice(**plane)
         self.add(solid.shaded_below(plane), shift, colour, **STEEL)
         self.add_lines(solid.edges.clip(**plane), shift)
+        if not above.any():
+            return
         self.add(section.triangulate_contours(), shift, CUT_FACE, lighting=False)
         self.add_lines(section, shift)
 
@@ -159,10 +181,11 @@ def main() -> None:
     parser.add_argument("--view", default="glass,cut,coolant")
     parser.add_argument("--cut", type=float, default=0.5, help="part of the height at which the metal ends")
     parser.add_argument("--azimuth", type=float, default=30, help="degrees from the broad side")
+    parser.add_argument("--along-axis", action="store_true", help="degrees from the axis x instead")
     parser.add_argument("--elevation", type=float, default=28)
     parser.add_argument("--width", type=int, default=1600, help="pixels")
     options = parser.parse_args()
-    stage = Stage(read(options.files), options.azimuth, options.elevation)
+    stage = Stage(read(options.files), options.azimuth, options.elevation, options.along_axis)
     save(stage.shoot(options.view.split(","), options.cut, options.width), options.out)
 
 

@@ -23,7 +23,12 @@ class Solid:
 
     @property
     def is_metal(self) -> bool:
-        return self.name.split("/")[0] == "metal"
+        """Blades, and the walls of a row."""
+        return self.name.split("/")[0] in ("metal", "hub", "shroud")
+
+    @property
+    def is_shroud(self) -> bool:
+        return self.name == "shroud"
 
     @property
     def is_insert(self) -> bool:

@@ -9,7 +9,7 @@ pub use fault::Fault;
 use crate::model::{EdgeId, Face, FaceId, Loop, Model, Solid};
 use crate::probe::SurfaceProbe;
 use coolinggen_nurbs::ParametricCurve;
-use deviation::Gauge;
+pub(crate) use deviation::Gauge;
 pub use deviation::deviation_amid_spans;
 use std::collections::HashMap;
 
@@ -59,6 +59,13 @@ pub struct SolidCheck {
     pub max_edge_distance_at: Option<EdgePlace>,
 }
 
+/// What was found on one face.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FaceCheck {
+    pub(crate) gauge: Gauge,
+    pub(crate) faults: Vec<Fault>,
+}
+
 impl SolidCheck {
     /// Whether nothing at all is wrong.
     pub fn is_sound(&self) -> bool {
@@ -66,27 +73,19 @@ impl SolidCheck {
     }
 }
 
-/// The findings on one face.
-struct FaceCheck {
-    gauge: Gauge,
-    faults: Vec<Fault>,
-}
-
 impl Model {
-    /// [`Model::check_solid`] of every solid of the model, in order; faces that solids share are looked at once.
-    pub fn check_solids(&self) -> Vec<SolidCheck> {
-        let mut known = HashMap::new();
-        self.solids.iter().map(|solid| self.check(solid, &mut known)).collect()
-    }
-
     /// Checks topology and geometry of a solid of this model. Faults of faces that the solid does not use are not
     /// reported.
     pub fn check_solid(&self, solid: &Solid) -> SolidCheck {
-        self.check(solid, &mut HashMap::new())
+        self.check_solid_by(solid, &mut |face| self.check_face(face))
     }
 
-    /// Checks a solid; `known` has the faces checked so far.
-    fn check(&self, solid: &Solid, known: &mut HashMap<FaceId, FaceCheck>) -> SolidCheck {
+    /// [`Model::check_solid`] with the findings on each face from `on_face`.
+    pub(crate) fn check_solid_by(
+        &self,
+        solid: &Solid,
+        on_face: &mut dyn FnMut(FaceId) -> FaceCheck,
+    ) -> SolidCheck {
         let mut check = SolidCheck {
             watertight: false,
             genus_found: None,
@@ -110,9 +109,9 @@ impl Model {
         self.check_edges(solid, &mut check);
         let mut gauge = Gauge::default();
         for used in solid.faces() {
-            let face = known.entry(used.face).or_insert_with(|| self.check_face(used.face));
-            gauge.include(&face.gauge);
-            check.faults.extend(face.faults.iter().cloned());
+            let found = on_face(used.face);
+            gauge.include(&found.gauge);
+            check.faults.extend(found.faults);
         }
         (check.max_edge_deviation_mm, check.max_edge_deviation_at) = gauge.deviation;
         (check.max_edge_distance_mm, check.max_edge_distance_at) = gauge.distance;
@@ -180,8 +179,9 @@ impl Model {
     }
 
     /// Loops in the parameter plane, and edges against the surface.
-    fn check_face(&self, id: FaceId) -> FaceCheck {
-        let (mut gauge, mut faults) = (Gauge::default(), Vec::new());
+    pub(crate) fn check_face(&self, id: FaceId) -> FaceCheck {
+        let mut check = FaceCheck::default();
+        let FaceCheck { gauge, faults } = &mut check;
         let face = self.face(id);
         let name = || face.name.clone();
         let mut probe = SurfaceProbe::new(&face.surface);
@@ -199,7 +199,7 @@ impl Model {
                     faults.push(Fault::EdgeDeviation { face: name(), edge: coedge.edge, deviation_mm });
                 }
             }
-            self.check_closure(face, index, lp, &mut probe, &mut faults);
+            self.check_closure(face, index, lp, &mut probe, faults);
             // A loop that is wrong anyway has no sense to speak of.
             if faults.len() == before {
                 let area = topology::rough_area(lp);
@@ -208,7 +208,7 @@ impl Model {
                 }
             }
         }
-        FaceCheck { gauge, faults }
+        check
     }
 
     /// The jumps between parameter curves, which must be none, or on a pole of the surface.

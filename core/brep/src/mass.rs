@@ -12,7 +12,8 @@ mod ruled;
 mod spline;
 
 use crate::geometry::SurfaceGeometry;
-use crate::model::{Face, Model, Solid};
+use crate::model::{Face, Loop, Model, Solid};
+use coolinggen_nurbs::Surface;
 use glam::DVec3;
 use std::ops::AddAssign;
 
@@ -92,10 +93,18 @@ impl Model {
 /// less than a right angle from knot to knot. Areas of B-spline faces are good to 1e-8 of the value, on faces of
 /// more than a few spans to rounding.
 pub fn face_integrals(face: &Face) -> FaceIntegrals {
+    integrals_by(face, &mut loop_sums)
+}
+
+/// [`face_integrals`] with what each loop adds on a B-spline surface from `of_loop`.
+pub(crate) fn integrals_by(
+    face: &Face,
+    of_loop: &mut dyn FnMut(&Surface<DVec3>, &Loop) -> Sums,
+) -> FaceIntegrals {
     let sums = match &face.surface {
         SurfaceGeometry::Plane(s) => plane::integrate(s, &face.loops),
         SurfaceGeometry::Revolution(s) => revolution::integrate(s, &face.loops),
-        SurfaceGeometry::BSpline(s) => spline::integrate(s, &face.loops),
+        SurfaceGeometry::BSpline(s) => total(face.loops.iter().map(|bound| of_loop(s, bound))),
         SurfaceGeometry::Rational(s) => spline::integrate_rational(s, &face.loops),
     };
     FaceIntegrals {
@@ -107,9 +116,20 @@ pub fn face_integrals(face: &Face) -> FaceIntegrals {
     }
 }
 
+/// What one loop adds to the sums over a part of `surface`.
+pub(crate) fn loop_sums(surface: &Surface<DVec3>, bound: &Loop) -> Sums {
+    spline::integrate(surface, bound)
+}
+
+fn total(parts: impl Iterator<Item = Sums>) -> Sums {
+    let mut sums = Sums::default();
+    parts.for_each(|part| sums += part);
+    sums
+}
+
 /// Sums over quadrature points.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+pub(crate) struct Sums {
     /// Integral of 1.
     area: f64,
     /// Integral of `X`.

@@ -1,9 +1,9 @@
 //! The whole way from a design to a measured model.
 
-use crate::build::{BuildError, CooledBlade, add_row, build};
+use crate::build::{BuildError, CooledBlade, KeptBuild, add_row, build};
 use crate::design::Design;
 use crate::plan::Plan;
-use crate::report::{Report, Timings};
+use crate::report::{KeptMeasures, Report, Timings};
 use crate::watch::{Stage, Unwatched, Watch};
 use coolinggen_blade::{Blade, BladeSource, Fault, SpaceSpec, StreamSpace};
 use std::path::{Path, PathBuf};
@@ -41,10 +41,30 @@ pub fn generate(design: &Design, folder: &Path) -> Result<Generated, Vec<Fault>>
     })
 }
 
-/// What is kept from one generation for the next of a similar design.
+/// What is kept from one generation for the next of a similar design: the last outer surface, the last blade with its
+/// passages, what is known of its bores, and the measures of faces. Each is used again where everything that it was made
+/// from is as it was, bit by bit: the result is that of [`generate`].
 #[derive(Clone, Debug, Default)]
 pub struct Warm {
     outer: Option<Arc<Outer>>,
+    build: KeptBuild,
+    measures: KeptMeasures,
+    outers: u64,
+}
+
+/// How often what can be kept has been made so far.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Made {
+    /// Outer surfaces.
+    pub outers: u64,
+    /// Blades with their passages.
+    pub hollows: u64,
+    /// Bores found, in the last of these.
+    pub bores: u64,
+    /// Loops of faces integrated.
+    pub loops: u64,
+    /// Faces checked.
+    pub checks: u64,
 }
 
 /// A blade's outer surface with what it was made from.
@@ -87,12 +107,28 @@ impl Warm {
         folder: &Path,
         watch: &dyn Watch,
     ) -> Result<Generated, Stopped> {
+        let result = self.generated(design, folder, watch);
+        self.build.end_round(result.is_ok());
+        self.measures.end_round(result.is_ok());
+        result
+    }
+
+    /// What has been made so far, and not been used again.
+    pub fn made(&self) -> Made {
+        let ([hollows, bores], [loops, checks]) = (self.build.made(), self.measures.made());
+        Made { outers: self.outers, hollows, bores, loops, checks }
+    }
+
+    fn generated(&mut self, design: &Design, folder: &Path, watch: &dyn Watch) -> Result<Generated, Stopped> {
         let started = Instant::now();
         let begin = |stage: Stage| {
             watch.begins(stage);
             if watch.cancelled() { Err(Stopped::Cancelled) } else { Ok(Instant::now()) }
         };
-        let refused = |error: BuildError| Stopped::Refused(error.into_faults());
+        let refused = |error: BuildError| match error {
+            BuildError::Cancelled => Stopped::Cancelled,
+            error => Stopped::Refused(error.into_faults()),
+        };
         let milliseconds = |since: Instant| since.elapsed().as_secs_f64() * 1e3;
 
         begin(Stage::Blade)?;
@@ -107,13 +143,15 @@ impl Warm {
         };
         let blade_ms = milliseconds(started);
         let built = begin(Stage::Build)?;
-        let mut blade = build(&outer.surface, &outer.space, &plan).map_err(refused)?;
+        let mut blade =
+            build(&outer.surface, &outer.space, &plan, &mut self.build, watch).map_err(refused)?;
         if let Some(pattern) = &design.pattern {
-            add_row(&mut blade.model, &outer.surface, &outer.space, pattern).map_err(refused)?;
+            add_row(&mut blade.model, &outer.surface, &outer.space, pattern, watch).map_err(refused)?;
         }
         let build_ms = milliseconds(built);
         let measured = begin(Stage::Measure)?;
-        let mut report = Report::new(&design.name, &outer.surface, &blade).map_err(refused)?;
+        let report = Report::new(&design.name, &outer.surface, &blade, &mut self.measures, watch);
+        let mut report = report.map_err(refused)?;
         report.timings_ms = Timings {
             blade: blade_ms,
             build: build_ms,
@@ -132,6 +170,7 @@ impl Warm {
         let (space, surface) = coolinggen_blade::build(&design.space, &design.blade, folder)?;
         let outer = Arc::new(Outer { from, space, surface: Arc::new(surface) });
         self.outer = Some(Arc::clone(&outer));
+        self.outers += 1;
         Ok(outer)
     }
 }

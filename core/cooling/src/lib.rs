@@ -13,5 +13,5 @@ pub mod section;
 mod turn;
 mod watch;
 
-pub use generate::{Generated, Stopped, Warm, generate};
+pub use generate::{Generated, Made, Stopped, Warm, generate};
 pub use watch::{Stage, Unwatched, Watch};

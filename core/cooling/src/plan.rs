@@ -13,7 +13,7 @@ use coolinggen_blade::{Fault, Law, LawSpec, Pointer};
 use std::collections::HashSet;
 
 /// Cooling, ready to be built.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plan {
     /// The shell; there whenever there are chambers.
     pub shell: Option<ShellPlan>,
@@ -45,7 +45,7 @@ pub struct Plan {
 }
 
 /// Shell thickness, mm.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ShellPlan {
     /// On the suction side.
     pub suction_side: Law,
@@ -58,7 +58,7 @@ pub struct ShellPlan {
 }
 
 /// A wall; see [`crate::design::Wall`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct WallPlan {
     /// Name.
     pub name: String,
@@ -71,7 +71,7 @@ pub struct WallPlan {
 }
 
 /// A chamber; see [`crate::design::Chamber`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ChamberPlan {
     /// Name.
     pub name: String,
@@ -82,7 +82,7 @@ pub struct ChamberPlan {
 }
 
 /// A radial hole; see [`crate::design::RadialHole`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RadialHolePlan {
     /// Name.
     pub name: String,
@@ -93,7 +93,7 @@ pub struct RadialHolePlan {
 }
 
 /// A placement with its two laws ready; see [`HolePlacement`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum PlacementPlan {
     /// Camber fraction and offset.
     Camber(Law, Law),
@@ -104,7 +104,7 @@ pub enum PlacementPlan {
 }
 
 /// A row of film holes; see [`crate::design::FilmRow`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FilmRowPlan {
     /// Name.
     pub name: String,
@@ -131,7 +131,7 @@ pub struct FilmRowPlan {
 }
 
 /// Where a row runs on its side.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum RowPlacement {
     /// Fraction of the side's length.
     Position(Law),
@@ -142,7 +142,7 @@ pub enum RowPlacement {
 }
 
 /// A row of slots; see [`crate::design::SlotRow`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SlotRowPlan {
     /// Name.
     pub name: String,
@@ -192,6 +192,21 @@ impl Plan {
         let root = Pointer::root().at("cooling");
         let plan = maker.plan(cooling, &root);
         if maker.faults.is_empty() { Ok(plan) } else { Err(maker.faults) }
+    }
+
+    /// The part of the plan that is built before any bore: what the others share.
+    pub fn without_bores(&self) -> Self {
+        let mut inserts = self.inserts.clone();
+        inserts.iter_mut().for_each(|insert| insert.jets.clear());
+        Self {
+            shell: self.shell.clone(),
+            walls: self.walls.clone(),
+            chambers: self.chambers.clone(),
+            turns: self.turns.clone(),
+            inserts,
+            radial_holes: self.radial_holes.clone(),
+            ..Self::default()
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! How a generation tells how far it is, and is told to stop.
 
+use crate::build::BuildError;
+
 /// A stage of a generation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
@@ -41,6 +43,13 @@ pub trait Watch: Sync {
 
     /// Whether to stop: asked again and again, from any thread.
     fn cancelled(&self) -> bool;
+}
+
+impl dyn Watch + '_ {
+    /// An error once it is to stop.
+    pub(crate) fn go_on(&self) -> Result<(), BuildError> {
+        if self.cancelled() { Err(BuildError::Cancelled) } else { Ok(()) }
+    }
 }
 
 /// Nobody: nothing is told, nothing stops.

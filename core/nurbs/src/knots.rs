@@ -97,15 +97,6 @@ impl Knots {
     /// Index `i` with `knots[i] <= t < knots[i + 1]`, the last non-empty span at the end; `t` outside is clamped.
     pub fn span(&self, t: f64) -> usize {
         let (low, high) = (self.degree, self.control_count());
-        // Where knots are about even, the first guess is right or next to it.
-        let (start, end) = (self.values[low], self.values[high]);
-        let part = (t - start) / (end - start);
-        if part > 0.0 && part < 1.0 {
-            let guess = low + (part * (high - low) as f64) as usize;
-            if guess + 1 < self.values.len() && self.values[guess] <= t && t < self.values[guess + 1] {
-                return guess;
-            }
-        }
         let inner = &self.values[low + 1..high];
         let mut i = low + inner.partition_point(|&k| k <= t);
         // At the end of the domain with repeated interior knots the span may be empty: step back to a full one.

@@ -89,6 +89,7 @@ fn write_solids(options: &GenerateOptions, generated: &Generated) -> Result<(), 
             angle_deg: options.angle,
             ..TessellationOptions::default()
         },
+        stop: &|| false,
     };
     let progress = Progress::new(export.steps() as u64);
     let mut started = false;
@@ -97,7 +98,6 @@ fn write_solids(options: &GenerateOptions, generated: &Generated) -> Result<(), 
             progress.done();
         }
         progress.step(step);
-        true
     });
     match written {
         Ok(_) => Ok(()),

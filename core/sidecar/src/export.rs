@@ -3,9 +3,11 @@
 use clap::ValueEnum;
 use coolinggen_cooling::Generated;
 use coolinggen_exporters as exporters;
-use exporters::{ExportError, StepOptions, Tessellation, TessellationOptions, write_atomically};
+use exporters::{ExportError, KeptMeshes, StepOptions, Tessellation, TessellationOptions, write_atomically};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// A file format.
@@ -60,6 +62,24 @@ pub(crate) struct Export<'a> {
     pub(crate) formats: &'a [Format],
     pub(crate) solids: &'a [SolidChoice],
     pub(crate) tessellation: TessellationOptions,
+    /// Says when to stop.
+    pub(crate) stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+/// A writer that fails once it is to stop.
+struct Stoppable<'a, W> {
+    out: &'a mut W,
+    stop: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl<W: Write> Write for Stoppable<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if (self.stop)() { Err(io::Error::other("it was told to stop")) } else { self.out.write(bytes) }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
 }
 
 /// A failed export: what could not be done with which file, and why.
@@ -86,21 +106,20 @@ impl Export<'_> {
     }
 
     /// Writes the files `<name>.<part>.<extension>`, each complete or not at all, and tells each `step` before it is
-    /// made; `step` stops the work by answering false. The answer is what was written.
+    /// made. The answer is what was written; an error where it was told to stop.
     pub(crate) fn write(
         &self,
         generated: &Generated,
-        step: &mut dyn FnMut(&str) -> bool,
+        step: &mut dyn FnMut(&str),
     ) -> Result<Vec<PathBuf>, ExportFailure> {
         let model = &generated.blade.model;
         std::fs::create_dir_all(self.folder)
             .map_err(|e| ExportFailure::new("make the folder", self.folder, e))?;
         let mut written = Vec::new();
         let mesh = if self.needs_mesh() {
-            if !step("tessellating") {
-                return Ok(written);
-            }
-            let mesh = exporters::tessellate(model, &self.tessellation);
+            step("tessellating");
+            let kept = &mut KeptMeshes::default();
+            let mesh = exporters::tessellate_again(model, &self.tessellation, kept, self.stop);
             Some(mesh.map_err(|e| ExportFailure::new("write into", self.folder, e))?)
         } else {
             None
@@ -120,14 +139,21 @@ impl Export<'_> {
                 let extension =
                     format.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
                 let path = self.folder.join(format!("{stem}.{extension}"));
-                if !step(&path.display().to_string()) {
-                    return Ok(written);
-                }
+                step(&path.display().to_string());
                 let wrote = self.file(*format, generated, &names, mesh.as_ref(), &path, &stem);
                 written.extend(wrote.map_err(|e| ExportFailure::new("write", &path, e))?);
             }
         }
         Ok(written)
+    }
+
+    /// Writes a file in one piece or not at all.
+    fn atomically(
+        &self,
+        path: &Path,
+        write: impl FnOnce(&mut Stoppable<'_, BufWriter<File>>) -> Result<(), ExportError>,
+    ) -> Result<(), ExportError> {
+        write_atomically(path, |out| write(&mut Stoppable { out, stop: self.stop }))
     }
 
     fn file(
@@ -144,20 +170,20 @@ impl Export<'_> {
         match (format, mesh) {
             (Format::Step, _) => {
                 let options = StepOptions { name: stem.to_owned(), ..StepOptions::default() };
-                write_atomically(path, |out| exporters::write_step(model, names, &options, out))?;
+                self.atomically(path, |out| exporters::write_step(model, names, &options, out))?;
             }
             (_, None) => written.clear(),
             (Format::Glb, Some(mesh)) => {
-                write_atomically(path, |out| exporters::write_glb(model, names, mesh, out))?;
+                self.atomically(path, |out| exporters::write_glb(model, names, mesh, out))?;
             }
             (Format::Stl, Some(mesh)) => {
-                write_atomically(path, |out| exporters::write_stl(model, names, mesh, out))?;
+                self.atomically(path, |out| exporters::write_stl(model, names, mesh, out))?;
             }
             (Format::Obj, Some(mesh)) => {
                 let library = format!("{stem}.mtl");
                 let beside = self.folder.join(&library);
-                write_atomically(&beside, |out| exporters::write_mtl(model, names, out))?;
-                write_atomically(path, |out| exporters::write_obj(model, names, mesh, &library, out))?;
+                self.atomically(&beside, |out| exporters::write_mtl(model, names, out))?;
+                self.atomically(path, |out| exporters::write_obj(model, names, mesh, &library, out))?;
                 written.push(beside);
             }
         }

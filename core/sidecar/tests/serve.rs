@@ -1,128 +1,14 @@
 //! The sidecar from outside: the real binary, driven as a client would and worse.
 
-use serde_json::{Value, json};
-use std::io::{BufRead, BufReader, Read, Write};
+mod client;
+
+use client::{BINARY, Client, LONG, Server, floats, indices, resident, sample};
+use serde_json::json;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::mpsc::{Receiver, channel};
+use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
-
-const BINARY: &str = env!("CARGO_BIN_EXE_coolinggen");
-/// A reply that takes longer than this will not come.
-const LONG: Duration = Duration::from_secs(120);
-
-fn sample(name: &str) -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples").join(name);
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-/// One end of a conversation.
-struct Client<W: Write> {
-    out: W,
-    lines: Receiver<String>,
-}
-
-impl<W: Write> Client<W> {
-    fn new(out: W, input: impl Read + Send + 'static) -> Self {
-        let (sender, lines) = channel();
-        thread::spawn(move || {
-            for line in BufReader::new(input).lines() {
-                if line.is_err() || sender.send(line.unwrap()).is_err() {
-                    break;
-                }
-            }
-        });
-        Self { out, lines }
-    }
-
-    fn raw(&mut self, text: &[u8]) {
-        self.out.write_all(text).unwrap();
-        self.out.flush().unwrap();
-    }
-
-    fn send(&mut self, id: impl Into<Value>, method: &str, params: &Value) {
-        let message = json!({ "jsonrpc": "2.0", "id": id.into(), "method": method, "params": params });
-        self.raw(format!("{message}\n").as_bytes());
-    }
-
-    fn cancel(&mut self, id: impl Into<Value>) {
-        let params = json!({ "id": id.into() });
-        let message = json!({ "jsonrpc": "2.0", "method": "$/cancelRequest", "params": params });
-        self.raw(format!("{message}\n").as_bytes());
-    }
-
-    fn next(&self) -> Value {
-        let line = self.lines.recv_timeout(LONG).expect("a message");
-        serde_json::from_str(&line).expect("a line of JSON")
-    }
-
-    /// The next reply; progress is passed over.
-    fn reply(&self) -> Value {
-        loop {
-            let message = self.next();
-            if message.get("id").is_some() {
-                return message;
-            }
-        }
-    }
-
-    fn ask(&mut self, method: &str, params: &Value) -> Value {
-        self.send("ask", method, params);
-        let reply = self.reply();
-        assert_eq!(reply["id"], "ask", "{reply}");
-        reply
-    }
-
-    fn result(&mut self, method: &str, params: &Value) -> Value {
-        let mut reply = self.ask(method, params);
-        assert!(reply.get("error").is_none(), "{method}: {}", reply["error"]);
-        reply["result"].take()
-    }
-
-    fn error(&mut self, method: &str, params: &Value) -> Value {
-        let mut reply = self.ask(method, params);
-        reply["error"].take()
-    }
-}
-
-struct Server {
-    process: Child,
-    client: Client<ChildStdin>,
-}
-
-impl Server {
-    fn with(arguments: &[&str]) -> Self {
-        let mut process = Command::new(BINARY)
-            .arg("serve")
-            .args(arguments)
-            // glibc keeps an arena a thread, which fill up one after the other: one alone shows what is in use.
-            .env("MALLOC_ARENA_MAX", "1")
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let client = Client::new(process.stdin.take().unwrap(), process.stdout.take().unwrap());
-        Self { process, client }
-    }
-
-    /// A server after `initialize`.
-    fn ready() -> Self {
-        let mut server = Self::with(&[]);
-        server.client.result("initialize", &json!({ "protocol_version": 1 }));
-        server
-    }
-
-    /// Closes the server's standard input; how long it took to end, and its exit code.
-    fn leave(self) -> (Duration, Option<i32>) {
-        let Self { mut process, client } = self;
-        let started = Instant::now();
-        drop(client.out);
-        let status = process.wait().unwrap();
-        (started.elapsed(), status.code())
-    }
-}
 
 #[test]
 fn the_page_is_what_the_server_prints() {
@@ -186,37 +72,6 @@ fn a_design_becomes_a_model_with_report_mesh_and_files() {
     assert_eq!(server.process.wait().unwrap().code(), Some(0));
 }
 
-fn bytes(base64: &Value) -> Vec<u8> {
-    // A decoder of the test's own: four characters are three bytes.
-    let value = |c: u8| match c {
-        b'A'..=b'Z' => c - b'A',
-        b'a'..=b'z' => c - b'a' + 26,
-        b'0'..=b'9' => c - b'0' + 52,
-        b'+' => 62,
-        _ => 63,
-    };
-    let text = base64.as_str().unwrap().as_bytes();
-    let padding = text.iter().filter(|&&c| c == b'=').count();
-    let mut out: Vec<u8> = text
-        .chunks_exact(4)
-        .flat_map(|c| {
-            let bits =
-                c.iter().fold(0u32, |bits, &c| bits << 6 | u32::from(if c == b'=' { 0 } else { value(c) }));
-            bits.to_be_bytes()[1..].to_vec()
-        })
-        .collect();
-    out.truncate(out.len() - padding);
-    out
-}
-
-fn floats(base64: &Value) -> Vec<f32> {
-    bytes(base64).chunks_exact(4).map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect()
-}
-
-fn indices(base64: &Value) -> Vec<u32> {
-    bytes(base64).chunks_exact(4).map(|b| u32::from_le_bytes(b.try_into().unwrap())).collect()
-}
-
 #[test]
 fn bad_messages_have_error_replies_and_the_server_goes_on() {
     let mut server = Server::with(&[]);
@@ -274,13 +129,6 @@ fn a_line_of_a_hundred_megabytes_is_refused_without_being_kept() {
         assert!(kilobytes < 200 << 10, "{kilobytes} kB");
     }
     assert_eq!(server.client.result("model/list", &json!({}))["models"], json!([]));
-}
-
-/// Resident memory of a process in kB, where the system tells.
-fn resident(process: &Child) -> Option<u64> {
-    let status = std::fs::read_to_string(format!("/proc/{}/status", process.id())).ok()?;
-    let line = status.lines().find(|l| l.starts_with("VmRSS:"))?;
-    line.split_whitespace().nth(1)?.parse().ok()
 }
 
 #[test]

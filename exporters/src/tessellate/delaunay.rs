@@ -41,6 +41,8 @@ pub(crate) enum Unfit {
     Crossing(Vec<u32>),
     /// Two nodes lie in one place.
     Touching,
+    /// It was told to stop.
+    Stopped,
 }
 
 /// Fills the patch and says whether its triangles then keep the tolerances.
@@ -52,6 +54,7 @@ pub(crate) fn fill(
     surface: &SurfaceGeometry,
     field: &Field,
     o: &TessellationOptions,
+    stop: &dyn Fn() -> bool,
 ) -> Result<bool, Unfit> {
     patch.clear();
     // A coarse grid, refined where it must be, ends with fewer triangles than one that is fine enough everywhere.
@@ -65,6 +68,9 @@ pub(crate) fn fill(
     let limits =
         Limits { turn: (DIAGONAL * o.angle()).cos(), shortest: 0.1 * o.chord_mm, close: 0.6 * o.chord_mm };
     for _ in 0..ROUNDS {
+        if stop() {
+            return Err(Unfit::Stopped);
+        }
         patch.triangles = inside(&cdt);
         patch.exchange_diagonals();
         let mut faults: Vec<Fault> = Vec::new();

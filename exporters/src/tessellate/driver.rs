@@ -3,13 +3,15 @@
 use super::boundary::{self, Node};
 use super::edges;
 use super::field::Field;
+use super::kept::{KeptFill, KeptMeshes, NumberedField, Prepared, edge_key, face_key};
 use super::patch::Patch;
 use super::{FaceMesh, Tessellation, TessellationOptions, delaunay, rectangle};
 use crate::ExportError;
-use coolinggen_brep::{Coedge, Edge, Face, FaceId, Model};
+use coolinggen_brep::{Coedge, Edge, Face, FaceId, Key, Memo, Model};
 use coolinggen_nurbs::ParametricCurve;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Rounds in which edges are cut finer where a face's border polygon crosses itself; each is a quarter of the
 /// sagitta of the last.
@@ -24,48 +26,91 @@ const MOST_CELLS: f64 = 2e7;
 /// [`ExportError::Untriangulable`] for a face whose border crosses or touches itself however finely it is cut;
 /// [`ExportError::TooLarge`] when tolerances ask for more than 2e7 cells of a face.
 pub fn tessellate(model: &Model, options: &TessellationOptions) -> Result<Tessellation, ExportError> {
+    tessellate_again(model, options, &mut KeptMeshes::default(), &|| false)
+}
+
+/// As [`tessellate`], reusing what `kept` has from the time before, until `stop` says so.
+///
+/// # Errors
+/// As [`tessellate`]; [`ExportError::Stopped`].
+pub fn tessellate_again(
+    model: &Model,
+    options: &TessellationOptions,
+    kept: &mut KeptMeshes,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Tessellation, ExportError> {
+    let result = tessellated(model, options, kept, stop);
+    kept.end_round(result.is_ok());
+    result
+}
+
+fn tessellated(
+    model: &Model,
+    options: &TessellationOptions,
+    kept: &mut KeptMeshes,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Tessellation, ExportError> {
     options.check()?;
     let bare = |f: &&Face| f.loops.is_empty() || f.loops.iter().any(|l| l.coedges.is_empty());
     if let Some(face) = model.faces.iter().find(bare) {
         return Err(ExportError::BadTopology { at: face.name.clone(), what: "a face without a border" });
     }
-    if let Some(face) = model.faces.par_iter().find_first(|f| wound(f)) {
-        let what = "the outer loop must run counterclockwise in the parameters, inner ones clockwise";
-        return Err(ExportError::BadTopology { at: face.name.clone(), what });
+    let mut faces: Vec<Prepared> = Vec::with_capacity(model.faces.len());
+    for face in &model.faces {
+        if stop() {
+            return Err(ExportError::Stopped);
+        }
+        let Some(prepared) = kept.prepared(face, options, || (!wound(face)).then(|| parameter_box(face)))
+        else {
+            let what = "the outer loop must run counterclockwise in the parameters, inner ones clockwise";
+            return Err(ExportError::BadTopology { at: face.name.clone(), what });
+        };
+        faces.push(prepared);
     }
-    let prepare = |face: &Face| {
-        let (low, high) = parameter_box(face);
-        (low, high, Field::new(&face.surface, low, high, options))
-    };
-    let fields: Vec<(DVec2, DVec2, Field)> = model.faces.par_iter().map(prepare).collect();
-    if fields.iter().any(|(_, _, f)| !(f.u.total().max(1.0) * f.v.total().max(1.0) < MOST_CELLS)) {
+    let cells = |f: &Field| f.u.total().max(1.0) * f.v.total().max(1.0);
+    if faces.iter().any(|face| !(cells(&face.field.field) < MOST_CELLS)) {
         return Err(ExportError::TooLarge { what: "triangles of a face at these tolerances" });
     }
-    let mut uses: Vec<Vec<(&Coedge, &Field)>> = vec![Vec::new(); model.edges.len()];
-    for (face, (_, _, field)) in model.faces.iter().zip(&fields) {
+    let mut uses: Vec<Vec<(&Coedge, &NumberedField)>> = vec![Vec::new(); model.edges.len()];
+    for (face, prepared) in model.faces.iter().zip(&faces) {
         for coedge in face.loops.iter().flat_map(|l| &l.coedges) {
-            uses[coedge.edge.0].push((coedge, field));
+            uses[coedge.edge.0].push((coedge, &*prepared.field));
         }
     }
     let mut least = vec![1; model.edges.len()];
     let mut round = 0;
     loop {
-        let cut = Cut::new(model, &uses, &least, options);
-        let fill = |(face, (low, high, field)): (&Face, &(DVec2, DVec2, Field))| {
-            fill(face, (*low, *high), field, &cut, options)
+        let cut = Cut::new(model, &uses, &least, options, &mut kept.cuts);
+        if stop() {
+            return Err(ExportError::Stopped);
+        }
+        let key = |(face, prepared): (&Face, &Prepared)| face_key(face, prepared, &cut, options);
+        let keys: Vec<Key> = model.faces.par_iter().zip(&faces).map(key).collect();
+        let known: Vec<Option<Arc<KeptFill>>> = keys.iter().map(|key| kept.fills.find(key)).collect();
+        let fill = |((face, prepared), known): ((&Face, &Prepared), &Option<Arc<KeptFill>>)| match known {
+            Some(_) => None,
+            None if stop() => Some(Err(Refusal::Stopped)),
+            None => Some(fill(face, prepared, &cut, options, stop)),
         };
-        let filled: Vec<Result<Filled, Refusal>> = model.faces.par_iter().zip(&fields).map(fill).collect();
+        let filled: Vec<Option<Result<KeptFill, Refusal>>> =
+            model.faces.par_iter().zip(&faces).zip(&known).map(fill).collect();
         let mut crossing: Vec<usize> = Vec::new();
         let mut done = Vec::with_capacity(filled.len());
-        for (face, filled) in model.faces.iter().zip(filled) {
+        for (((face, key), known), filled) in model.faces.iter().zip(keys).zip(known).zip(filled) {
             match filled {
-                Ok(filled) => done.push(filled),
-                Err(Refusal::Crossing(edges)) if round < ROUNDS => crossing.extend(edges),
-                Err(_) => return Err(ExportError::Untriangulable { face: face.name.clone() }),
+                None => done.extend(known),
+                Some(Ok(filled)) => {
+                    let filled = Arc::new(filled);
+                    kept.fills.keep(key, Arc::clone(&filled));
+                    done.push(filled);
+                }
+                Some(Err(Refusal::Crossing(edges))) if round < ROUNDS => crossing.extend(edges),
+                Some(Err(Refusal::Stopped)) => return Err(ExportError::Stopped),
+                Some(Err(_)) => return Err(ExportError::Untriangulable { face: face.name.clone() }),
             }
         }
         if done.len() == model.faces.len() {
-            return assemble(cut, done);
+            return assemble(model, cut, &done);
         }
         for e in crossing {
             least[e] = 2 * (cut.parameters[e].len() - 1);
@@ -80,6 +125,8 @@ enum Refusal {
     Crossing(Vec<usize>),
     /// The border meets itself in a node.
     Touching,
+    /// It was told to stop.
+    Stopped,
 }
 
 /// Whether a loop of the face runs the wrong way round.
@@ -95,27 +142,45 @@ fn wound(face: &Face) -> bool {
 }
 
 /// All edges cut into segments.
-struct Cut {
-    points: Vec<DVec3>,
-    parameters: Vec<Vec<f64>>,
-    polylines: Vec<Vec<u32>>,
+pub(super) struct Cut {
+    pub(super) points: Vec<DVec3>,
+    pub(super) parameters: Vec<Vec<f64>>,
+    pub(super) polylines: Vec<Vec<u32>>,
 }
 
 impl Cut {
-    fn new(model: &Model, uses: &[Vec<(&Coedge, &Field)>], least: &[usize], o: &TessellationOptions) -> Self {
-        let divide = |(i, edge): (usize, &Edge)| {
-            let t = edges::divide(edge, &uses[i], least[i], o);
-            let inner: Vec<DVec3> = t[1..t.len() - 1].iter().map(|&t| edge.curve.point(t)).collect();
-            (t, inner)
+    fn new(
+        model: &Model,
+        uses: &[Vec<(&Coedge, &NumberedField)>],
+        least: &[usize],
+        o: &TessellationOptions,
+        kept: &mut Memo<Arc<(Vec<f64>, Vec<DVec3>)>>,
+    ) -> Self {
+        let key = |(i, edge): (usize, &Edge)| edge_key(edge, &uses[i], least[i], o);
+        let keys: Vec<Key> = model.edges.par_iter().enumerate().map(key).collect();
+        let known: Vec<_> = keys.iter().map(|key| kept.find(key)).collect();
+        let divide = |((i, edge), known): ((usize, &Edge), &Option<_>)| {
+            known.clone().unwrap_or_else(|| {
+                let fields: Vec<(&Coedge, &Field)> = uses[i].iter().map(|(c, f)| (*c, &f.field)).collect();
+                let t = edges::divide(edge, &fields, least[i], o);
+                let inner: Vec<DVec3> = t[1..t.len() - 1].iter().map(|&t| edge.curve.point(t)).collect();
+                Arc::new((t, inner))
+            })
         };
-        let divided: Vec<(Vec<f64>, Vec<DVec3>)> = model.edges.par_iter().enumerate().map(divide).collect();
+        let divided: Vec<_> = model.edges.par_iter().enumerate().zip(&known).map(divide).collect();
+        for ((key, known), divided) in keys.into_iter().zip(known).zip(&divided) {
+            if known.is_none() {
+                kept.keep(key, Arc::clone(divided));
+            }
+        }
         let mut out = Self { points: model.vertices.clone(), parameters: Vec::new(), polylines: Vec::new() };
-        for (edge, (t, inner)) in model.edges.iter().zip(divided) {
+        for (edge, divided) in model.edges.iter().zip(divided) {
+            let (t, inner) = (divided.0.clone(), &divided.1);
             let first = out.points.len() as u32;
             let mut polyline = vec![edge.start.0 as u32];
             polyline.extend((0..inner.len() as u32).map(|i| first + i));
             polyline.push(edge.end.0 as u32);
-            out.points.extend(inner);
+            out.points.extend_from_slice(inner);
             out.parameters.push(t);
             out.polylines.push(polyline);
         }
@@ -132,22 +197,16 @@ fn parameter_box(face: &Face) -> (DVec2, DVec2) {
     (low, high)
 }
 
-/// A face's border nodes and its triangles.
-struct Filled {
-    nodes: Vec<Node>,
-    patch: Patch,
-    /// Whether the triangles keep the tolerances.
-    kept: bool,
-}
-
 /// Triangulates a face; or names the edges whose segments cross.
 fn fill(
     face: &Face,
-    bounds: (DVec2, DVec2),
-    field: &Field,
+    prepared: &Prepared,
     cut: &Cut,
     o: &TessellationOptions,
-) -> Result<Filled, Refusal> {
+    stop: &dyn Fn() -> bool,
+) -> Result<KeptFill, Refusal> {
+    let field = &prepared.field.field;
+    let bounds = (prepared.low, prepared.high);
     let polygons = boundary::polygons(face, bounds, &cut.parameters, &cut.polylines);
     let mut patch = Patch::new(&face.surface, &polygons, &cut.points);
     let nodes: Vec<Node> = polygons.into_iter().flatten().collect();
@@ -157,9 +216,10 @@ fn fill(
     };
     let mut kept = true;
     if !rectangle::fill(&mut patch, &face.surface, field, o) {
-        kept = delaunay::fill(&mut patch, &face.surface, field, o).map_err(|unfit| match unfit {
+        kept = delaunay::fill(&mut patch, &face.surface, field, o, stop).map_err(|unfit| match unfit {
             delaunay::Unfit::Crossing(starts) => crossing(starts),
             delaunay::Unfit::Touching => Refusal::Touching,
+            delaunay::Unfit::Stopped => Refusal::Stopped,
         })?;
     }
     // Too coarse a border encloses nothing, or the wrong side.
@@ -167,31 +227,38 @@ fn fill(
     if !loose.is_empty() {
         return Err(crossing(loose));
     }
-    Ok(Filled { nodes, patch, kept })
+    Ok(KeptFill::new(face, cut, &nodes, patch, kept))
 }
 
-fn assemble(cut: Cut, filled: Vec<Filled>) -> Result<Tessellation, ExportError> {
+fn assemble(model: &Model, cut: Cut, filled: &[Arc<KeptFill>]) -> Result<Tessellation, ExportError> {
+    let borders: Vec<Vec<u32>> =
+        filled.iter().enumerate().map(|(i, filled)| filled.border(model, i, &cut)).collect();
     let faces = Vec::with_capacity(filled.len());
     let mut out = Tessellation { points: cut.points, edges: cut.polylines, faces, coarse: Vec::new() };
-    for (i, Filled { nodes, patch, kept }) in filled.into_iter().enumerate() {
+    for (i, (filled, mut points)) in filled.iter().zip(borders).enumerate() {
+        let KeptFill { patch, kept, .. } = &**filled;
         if !kept {
             out.coarse.push(FaceId(i));
         }
         let border = patch.next.len();
         let first = out.points.len();
-        let mut points: Vec<u32> = nodes.iter().map(|n| n.point).collect();
         points.extend((first..first + patch.uv.len() - border).map(|i| i as u32));
         out.points.extend_from_slice(&patch.at[border..]);
         if u32::try_from(out.points.len()).is_err() {
             return Err(ExportError::TooLarge { what: "points" });
         }
-        let mut triangles = patch.triangles;
+        let mut triangles = patch.triangles.clone();
         // Where a side is one point in space its triangles vanish.
         triangles.retain(|t| {
             let [a, b, c] = t.map(|i| points[i as usize]);
             a != b && b != c && c != a
         });
-        out.faces.push(FaceMesh { points, parameters: patch.uv, normals: patch.normals, triangles });
+        out.faces.push(FaceMesh {
+            points,
+            parameters: patch.uv.clone(),
+            normals: patch.normals.clone(),
+            triangles,
+        });
     }
     Ok(out)
 }

@@ -11,6 +11,7 @@ mod edges;
 mod field;
 mod flip;
 mod grading;
+mod kept;
 mod patch;
 mod rectangle;
 
@@ -18,7 +19,8 @@ use crate::ExportError;
 use coolinggen_brep::{FaceId, FaceUse};
 use glam::{DVec2, DVec3};
 
-pub use driver::tessellate;
+pub use driver::{tessellate, tessellate_again};
+pub use kept::KeptMeshes;
 
 /// How closely a tessellation follows the model.
 #[derive(Clone, Copy, Debug, PartialEq)]

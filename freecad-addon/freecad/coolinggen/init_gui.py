@@ -1,6 +1,10 @@
 """Loaded by FreeCAD's window: the workbench."""
 
+from pathlib import Path
+
 import FreeCADGui as Gui
+
+ICONS = Path(__file__).parent / "icons"
 
 
 class CoolingGenWorkbench(Gui.Workbench):
@@ -8,6 +12,7 @@ class CoolingGenWorkbench(Gui.Workbench):
 
     MenuText = "CoolingGen"
     ToolTip = "Cooled turbine blades from one design"
+    Icon = str(ICONS / "blade.svg")
 
     def Initialize(self) -> None:  # noqa: N802 (FreeCAD's name)
         from .commands import register
@@ -20,4 +25,12 @@ class CoolingGenWorkbench(Gui.Workbench):
         return "Gui::PythonWorkbench"
 
 
+def _preferences() -> None:
+    from .preferences import Page
+
+    Gui.addIconPath(str(ICONS))
+    Gui.addPreferencePage(Page, "CoolingGen")
+
+
 Gui.addWorkbench(CoolingGenWorkbench())
+_preferences()

@@ -29,8 +29,10 @@ pub enum SpaceSpec {
     Linear {
         /// z of the hub plane, span fraction 0, mm.
         #[serde(default)]
+        #[schemars(title = "Hub plane", extend("unit" = "mm"))]
         z0: f64,
         /// Span between hub and shroud plane, mm, positive.
+        #[schemars(extend("unit" = "mm", "exclusiveMinimum" = 0.0))]
         height: f64,
     },
 }
@@ -62,6 +64,7 @@ pub struct SplineSpec {
 #[serde(deny_unknown_fields)]
 pub struct StreamlineSpec {
     /// Span fraction, 0 at the hub, 1 at the shroud.
+    #[schemars(title = "Span fraction", extend("unit" = "span fraction", "minimum" = 0.0, "maximum" = 1.0))]
     pub v: f64,
     /// Its contour, points `[x, r]` in mm or a B-spline, run through with the flow.
     pub contour: ContourSpec,

@@ -33,24 +33,19 @@ pub fn deviation_amid_spans(surface: &SurfaceGeometry, curve: &Curve<DVec3>, pcu
 }
 
 /// The greatest deviations so far.
-#[derive(Debug, Default)]
-pub(super) struct Gauge {
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Gauge {
     /// Distance at the same parameter, mm, and where.
-    pub(super) deviation: (f64, Option<EdgePlace>),
+    pub(crate) deviation: (f64, Option<EdgePlace>),
     /// The part of it along the normal.
-    pub(super) distance: (f64, Option<EdgePlace>),
+    pub(crate) distance: (f64, Option<EdgePlace>),
 }
 
 impl Gauge {
-    /// Takes over what another gauge has found.
+    /// Takes note of what another has found.
     pub(super) fn include(&mut self, other: &Self) {
-        let keep = |mine: &mut (f64, Option<EdgePlace>), found: &(f64, Option<EdgePlace>)| {
-            if found.0 > mine.0 || found.0.is_nan() {
-                *mine = *found;
-            }
-        };
-        keep(&mut self.deviation, &other.deviation);
-        keep(&mut self.distance, &other.distance);
+        self.note(other.deviation.0, 0.0, other.deviation.1);
+        self.note(0.0, other.distance.0, other.distance.1);
     }
 
     /// Compares an edge with its image on a face; returns the greatest deviation, or a bound on it that is below

@@ -9,12 +9,13 @@ use crate::span::{Span, full_spans};
 use coolinggen_nurbs::{MAX_DEGREE, ParametricSurface, Surface};
 use glam::DVec3;
 
-/// Sums over a face that is the whole rectangle of a surface with one straight span in v; none for other faces.
-pub(super) fn integrate(surface: &Surface<DVec3>, loops: &[Loop]) -> Option<Sums> {
+/// Sums inside a loop that is the border of the whole rectangle of a surface with one straight span in v; none for other
+/// loops.
+pub(super) fn integrate(surface: &Surface<DVec3>, bound: &Loop) -> Option<Sums> {
     if surface.counts().1 != 2 {
         return None;
     }
-    let sign = way_round(surface, loops)?;
+    let sign = way_round(surface, bound)?;
     let knots = surface.knots_u();
     let p = knots.degree();
     let mut sums = Sums::default();
@@ -40,12 +41,11 @@ pub(super) fn integrate(surface: &Surface<DVec3>, loops: &[Loop]) -> Option<Sums
     Some(sums)
 }
 
-/// 1 where the loops are the border of the surface's rectangle, counterclockwise; -1 where clockwise.
-fn way_round(surface: &Surface<DVec3>, loops: &[Loop]) -> Option<f64> {
-    let [lp] = loops else { return None };
+/// 1 where the loop is the border of the surface's rectangle, counterclockwise; -1 where clockwise.
+fn way_round(surface: &Surface<DVec3>, bound: &Loop) -> Option<f64> {
     let ((u0, u1), (v0, v1)) = surface.domain();
     let (mut sides, mut straight, mut area) = (0, true, 0.0);
-    walk(lp, |path| {
+    walk(bound, |path| {
         let Path::Line { from, to } = *path else {
             straight = false;
             return;
@@ -72,9 +72,12 @@ impl Sums {
         self.normal += (normal + turn * 0.5) * weight;
         self.flux += height + 0.5 * rise;
         self.moment += from * (height + 0.5 * rise) + along * (0.5 * height + rise / 3.0);
-        // |n| is linear where n keeps its direction; else it has a root, smooth unless n vanishes nearby.
-        let steady = normal.length_squared().min((normal + turn).length_squared());
-        let points = if normal.cross(turn).length_squared() <= 1e-12 * steady * steady { 2 } else { 6 };
+        // |n| is linear where n keeps its direction and does not flip; else it has a root, smooth unless n vanishes nearby.
+        let end = normal + turn;
+        let steady = normal.length_squared().min(end.length_squared());
+        let straight =
+            normal.cross(turn).length_squared() <= 1e-12 * steady * steady && normal.dot(end) > 0.0;
+        let points = if straight { 2 } else { 6 };
         for &(s, w) in gauss::rule(points) {
             let area = weight * w * (normal + turn * s).length();
             self.area += area;

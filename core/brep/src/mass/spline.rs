@@ -15,26 +15,32 @@ use crate::span::{Span, weighted_sum};
 use coolinggen_nurbs::{MAX_DEGREE, RationalSurface, Surface};
 use glam::{DVec2, DVec3};
 
-/// Sums over the part of `surface` inside `loops`.
-pub(super) fn integrate(surface: &Surface<DVec3>, loops: &[Loop]) -> Sums {
-    if let Some(sums) = ruled::integrate(surface, loops) {
+/// What one loop adds to the sums over a part of `surface`.
+pub(super) fn integrate(surface: &Surface<DVec3>, bound: &Loop) -> Sums {
+    if let Some(sums) = ruled::integrate(surface, bound).or_else(|| cells::integrate(surface, bound)) {
         return sums;
     }
     // X (X . n) has degree 4 p - 1 in each parameter; six points at least, for the root in the area.
     let points = |degree: usize| (2 * degree).max(6);
     let (p, q) = (surface.knots_u().degree(), surface.knots_v().degree());
-    let (mut sums, large) = sum_over_small(surface, loops);
-    sums += sum_over_loops(surface, &large, [points(p), points(q)]);
-    sums
+    sum_over_loop(surface, bound, [points(p), points(q)])
 }
 
 /// Sums over the part of `surface` inside `loops`: rules of growing order until two agree.
 pub(super) fn integrate_rational(surface: &RationalSurface<DVec3>, loops: &[Loop]) -> Sums {
     let h = surface.homogeneous();
-    let (small, large) = sum_over_small(h, loops);
-    let mut last = sum_over_loops(h, &large, [10, 10]);
+    let mut small = Sums::default();
+    let mut large = Vec::with_capacity(loops.len());
+    for bound in loops {
+        match cells::integrate(h, bound) {
+            Some(sums) => small += sums,
+            None => large.push(bound),
+        }
+    }
+    let of_order = |n: usize| super::total(large.iter().map(|bound| sum_over_loop(h, bound, [n, n])));
+    let mut last = of_order(10);
     for n in [14, 20, 28, MAX_POINTS] {
-        let next = sum_over_loops(h, &large, [n, n]);
+        let next = of_order(n);
         // What the moments would be if nothing cancelled.
         let size = next.position.length() + next.area.abs().powf(1.5);
         let moved = (next.flux - last.flux).abs().max((next.position - last.position).length());
@@ -48,38 +54,21 @@ pub(super) fn integrate_rational(surface: &RationalSurface<DVec3>, loops: &[Loop
     last
 }
 
-/// Sums over the small loops, and the others.
-fn sum_over_small<'l, V: Frame>(surface: &Surface<V>, loops: &'l [Loop]) -> (Sums, Vec<&'l Loop>) {
-    let mut sums = Sums::default();
-    let mut large = Vec::new();
-    for lp in loops {
-        match cells::integrate(surface, lp) {
-            Some(inside) => sums += inside,
-            None => large.push(lp),
+fn sum_over_loop<V: Frame>(surface: &Surface<V>, bound: &Loop, order: [usize; 2]) -> Sums {
+    let outer = cheaper_outer_axis(surface, bound);
+    let mut net = Net::new(surface, outer, order);
+    let spans = net.knots.map(|knots| Span::new(knots, knots.span(knots.domain().0)));
+    let mut sweep = Sweep { net: &mut net, spans, open: None, base: None, sums: Sums::default() };
+    let mut pieces = Vec::new();
+    walk(bound, |path| {
+        cuts(path, [Some(surface.knots_u()), Some(surface.knots_v())], &mut pieces);
+        for piece in pieces.windows(2) {
+            sweep.piece(path, piece[0], piece[1]);
         }
-    }
-    (sums, large)
-}
-
-fn sum_over_loops<V: Frame>(surface: &Surface<V>, loops: &[&Loop], order: [usize; 2]) -> Sums {
-    let mut sums = Sums::default();
-    for lp in loops {
-        let outer = cheaper_outer_axis(surface, lp);
-        let mut net = Net::new(surface, outer, order);
-        let spans = net.knots.map(|knots| Span::new(knots, knots.span(knots.domain().0)));
-        let mut sweep = Sweep { net: &mut net, spans, open: None, base: None, sums: Sums::default() };
-        let mut pieces = Vec::new();
-        walk(lp, |path| {
-            cuts(path, [Some(surface.knots_u()), Some(surface.knots_v())], &mut pieces);
-            for piece in pieces.windows(2) {
-                sweep.piece(path, piece[0], piece[1]);
-            }
-        });
-        sweep.close();
-        // Green's theorem has a sign for each axis.
-        sums += sweep.sums.scaled(if outer == 0 { -1.0 } else { 1.0 });
-    }
-    sums
+    });
+    sweep.close();
+    // Green's theorem has a sign for each axis.
+    sweep.sums.scaled(if outer == 0 { -1.0 } else { 1.0 })
 }
 
 /// The outer axis along which the loop makes less work: borders on which the outer parameter is constant make

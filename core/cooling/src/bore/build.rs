@@ -1,22 +1,34 @@
 //! From shape to topology: the faces of a bore, and the holes they leave in the faces they end on.
 
 use super::BoreError;
-use super::legs::{Leg, legs};
+use super::found::{EndTrace, Found, Piece, key_of};
+use super::legs::Leg;
 use super::rims::Rim;
-use super::ring::{Interpolators, Stretch, Trace};
-use super::shape::{BoreShape, Path};
-use super::target::{Mouth, Ray, Target};
+use super::ring::{Interpolators, Trace};
+use super::shape::BoreShape;
+use super::target::Mouth;
 use coolinggen_brep::{
-    Coedge, EdgeId, Face, FaceId, Imprint, Loop, LoopEdges, Model, Plane, RingPiece, Style, SurfaceGeometry,
-    VertexId, straight_pcurve,
+    Coedge, EdgeId, Face, FaceId, Imprint, Loop, LoopEdges, Memo, Model, Plane, RingPiece, Style,
+    SurfaceGeometry, VertexId, straight_pcurve,
 };
 use coolinggen_nurbs::{Curve, Knots, ParametricCurve, ParametricSurface, Surface};
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
-/// Makes bores; keeps what they have in common.
-#[derive(Debug, Default)]
+/// Makes bores; keeps what they have in common, and what was found of each.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Drill {
     interpolators: Interpolators,
+    found: Memo<Arc<Found>>,
+}
+
+/// The faces that bores have parted.
+pub(crate) trait Wholes {
+    /// The face that a part was split off from, or the face itself.
+    fn whole(&self, face: FaceId) -> FaceId;
+
+    /// Whether the face will be the same one in the next build: no face that is made after bores is.
+    fn lasts(&self, face: FaceId) -> bool;
 }
 
 /// A finished bore.
@@ -38,17 +50,6 @@ pub(crate) struct BoreNames<'a> {
 /// How far a plane face's edges may lie off it, mm: they are made to lie on it.
 const PLANE_TOLERANCE: f64 = 1e-8;
 
-/// A piece of the bore between two neighbouring seams: part of one path.
-#[derive(Clone, Copy, Debug)]
-struct Piece {
-    path: usize,
-    from: f64,
-    to: f64,
-}
-
-/// A delimiting curve with the face it lies on; none for a point.
-type EndTrace = Option<(FaceId, Trace)>;
-
 /// A ring of the bore, a vertex where each piece begins and an edge for each piece that has a length.
 struct Ring {
     vertices: Vec<VertexId>,
@@ -64,25 +65,15 @@ impl Drill {
         shape: &BoreShape,
         ends: [(&[FaceId], Mouth); 2],
         names: &BoreNames<'_>,
+        wholes: &dyn Wholes,
         clear: &mut dyn FnMut([Rim; 2]) -> Result<(), BoreError>,
     ) -> Result<Bored, BoreError> {
-        let targets = [0, 1].map(|side| Target::new(&*model, ends[side].0));
+        let found = self.found(model, shape, ends, wholes)?;
+        let Found { legs, pieces, traces, middles, .. } = &*found;
         let last = shape.sections.len() - 1;
-        let end_legs =
-            [end_legs(&targets[0], shape, 0, &ends[0].1)?, end_legs(&targets[1], shape, last, &ends[1].1)?];
-        let pieces = pieces(shape, &end_legs);
-        let mut spans = Vec::with_capacity(pieces.len());
-        let mut traces: [Vec<EndTrace>; 2] = [Vec::new(), Vec::new()];
-        for piece in &pieces {
-            let (count, pair) = self.end_traces(shape, &targets, &end_legs, piece)?;
-            spans.push(count);
-            for (traces, trace) in traces.iter_mut().zip(pair) {
-                traces.push(trace);
-            }
-        }
         clear([rim(&traces[0]), rim(&traces[1])])?;
         // From here on the model changes.
-        let crossed = split_borders(model, &end_legs)?;
+        let crossed = split_borders(model, legs)?;
         let mut rings = Vec::with_capacity(last + 1);
         for section in 0..=last {
             let side = if section == 0 {
@@ -94,18 +85,16 @@ impl Drill {
             };
             let curves: Vec<Option<Curve<DVec3>>> = match side {
                 Some(side) => traces[side].iter().map(|t| t.as_ref().map(|t| t.1.curve.clone())).collect(),
-                None => (pieces.iter().zip(&spans))
-                    .map(|(piece, &spans)| self.middle_curve(shape, section, piece, spans))
-                    .collect::<Result<_, _>>()?,
+                None => middles[section - 1].clone(),
             };
             let at_border = |piece: &Piece| {
                 side.and_then(|s| {
                     crossed[s].iter().find(|c| c.0 == piece.path && c.1 == piece.from).map(|c| c.2)
                 })
             };
-            rings.push(ring(model, &pieces, curves, at_border));
+            rings.push(ring(model, pieces, curves, at_border));
         }
-        let faces = faces(model, shape, &pieces, &rings, names)?;
+        let faces = faces(model, shape, pieces, &rings, names)?;
         let mut imprints = Vec::with_capacity(2);
         for (side, section) in [(0, 0), (1, last)] {
             let ring = hole(model, shape, &ends[side].1, &rings[section], &traces[side]);
@@ -116,70 +105,35 @@ impl Drill {
         Ok(Bored { faces, imprints: [lower, upper] })
     }
 
-    /// The delimiting curves of a piece at both ends, with the faces they lie on, in as many spans as both need; none
-    /// for points.
-    fn end_traces(
+    /// What is found of a bore, now or before.
+    fn found(
         &mut self,
+        model: &Model,
         shape: &BoreShape,
-        targets: &[Target<'_>; 2],
-        end_legs: &[Vec<Vec<Leg>>; 2],
-        piece: &Piece,
-    ) -> Result<(usize, [EndTrace; 2]), BoreError> {
-        let mut spans = match shape.sections[0].paths[piece.path] {
-            // As fine as keeps a middle ring within 1e-6 of its radius.
-            Path::Arc { sweep, .. } => {
-                (14.0 * sweep.abs() * (piece.to - piece.from) / 1.57).ceil().max(4.0) as usize
-            }
-            Path::Line { .. } | Path::Fan { .. } | Path::Point(_) => 4,
-        };
-        let last = shape.sections.len() - 1;
-        let rays = [0, last].map(|section| move |t: f64| ray(shape, section, piece.path, t));
-        let ends = [0, 1].map(|side| {
-            let section = [0, last][side];
-            (!shape.sections[section].paths[piece.path].is_point()).then(|| {
-                let leg = leg_of(&end_legs[side][piece.path], piece);
-                stretch(shape, piece, &targets[side], leg, &rays[side])
-            })
-        });
-        let mut traces = [None, None];
-        for (end, trace) in ends.iter().zip(&mut traces) {
-            if let Some(stretch) = end {
-                let (count, found) = stretch.traced_closely(&mut self.interpolators, spans)?;
-                spans = count;
-                *trace = Some((count, stretch.face, found));
-            }
+        ends: [(&[FaceId], Mouth); 2],
+        wholes: &dyn Wholes,
+    ) -> Result<Arc<Found>, BoreError> {
+        let mouths = ends.map(|(_, mouth)| mouth);
+        if !mouths.iter().all(|mouth| wholes.lasts(wholes.whole(mouth.face))) {
+            return Ok(Arc::new(Found::new(&mut self.interpolators, model, shape, ends, wholes)?));
         }
-        // What served one end may be too few for the other.
-        let mut out = [None, None];
-        for ((end, trace), out) in ends.iter().zip(traces).zip(&mut out) {
-            *out = match (end, trace) {
-                (Some(stretch), Some((count, face, _))) if count != spans => {
-                    Some((face, stretch.traced(&mut self.interpolators, spans)?))
-                }
-                (_, trace) => trace.map(|(_, face, trace)| (face, trace)),
-            };
+        let key = key_of(shape, mouths, wholes);
+        if let Some(again) = self.found.find(&key).and_then(|found| found.again(model, ends, wholes)) {
+            return Ok(Arc::new(again));
         }
-        Ok((spans, out))
+        let found = Arc::new(Found::new(&mut self.interpolators, model, shape, ends, wholes)?);
+        self.found.keep(key, Arc::clone(&found));
+        Ok(found)
     }
 
-    /// The curve of a piece in a section between the ends.
-    fn middle_curve(
-        &mut self,
-        shape: &BoreShape,
-        section: usize,
-        piece: &Piece,
-        spans: usize,
-    ) -> Result<Option<Curve<DVec3>>, BoreError> {
-        let section = &shape.sections[section];
-        let path = &section.paths[piece.path];
-        if path.is_point() {
-            return Ok(None);
-        }
-        let (grading, range) = (path.grading(), (piece.from, piece.to));
-        let at = |k: usize| path.evaluate(grading.at(range, k, spans));
-        let points: Vec<DVec3> = (0..=spans).map(|k| shape.frame.point(at(k).0, section.z)).collect();
-        let slope = |k: usize| shape.frame.vector(at(k).1) * grading.end_speed(range);
-        Ok(Some(self.interpolators.of(spans)?.curve_with_slopes(&points, slope(0), slope(spans))?))
+    /// See [`Memo::end_round`].
+    pub(crate) fn end_round(&mut self, complete: bool) {
+        self.found.end_round(complete);
+    }
+
+    /// How many bores have been found so far that were not known.
+    pub(crate) fn made(&self) -> u64 {
+        self.found.made()
     }
 }
 
@@ -195,89 +149,6 @@ fn rim(traces: &[EndTrace]) -> Rim {
     faces.sort();
     faces.dedup();
     Rim::new(faces, points.collect())
-}
-
-/// What is to be traced of a piece on its leg.
-fn stretch<'a, 'm>(
-    shape: &BoreShape,
-    piece: &Piece,
-    target: &'a Target<'m>,
-    leg: &Leg,
-    rays: &'a dyn Fn(f64) -> Ray,
-) -> Stretch<'a, 'm> {
-    let (range, grading) = ((piece.from, piece.to), shape.sections[0].paths[piece.path].grading());
-    Stretch { target, face: leg.face, rays, range, grading, start: leg.start }
-}
-
-/// The line of a path at `t` that ends at the first section or at the last one.
-fn ray(shape: &BoreShape, section: usize, path: usize, t: f64) -> Ray {
-    let lower = section.min(shape.sections.len() - 2);
-    let (a, b) = (&shape.sections[lower], &shape.sections[lower + 1]);
-    let ((p, dp), (q, dq)) = (a.paths[path].evaluate(t), b.paths[path].evaluate(t));
-    let (origin, end) = (shape.frame.point(p, a.z), shape.frame.point(q, b.z));
-    let (origin_slope, end_slope) = (shape.frame.vector(dp), shape.frame.vector(dq));
-    Ray { origin, direction: end - origin, origin_slope, direction_slope: end_slope - origin_slope }
-}
-
-/// The legs of every path at one end, none for points.
-fn end_legs(
-    target: &Target<'_>,
-    shape: &BoreShape,
-    section: usize,
-    mouth: &Mouth,
-) -> Result<Vec<Vec<Leg>>, BoreError> {
-    let lower = section.min(shape.sections.len() - 2);
-    let (a, b) = (shape.sections[lower].z, shape.sections[lower + 1].z);
-    let frame = &shape.frame;
-    // From the axis out to the rim.
-    let rim = ray(shape, section, 0, 0.0);
-    let (origin, direction) = (frame.point(DVec2::ZERO, a), frame.axis * (b - a));
-    let spoke = |t: f64| Ray {
-        origin: origin + (rim.origin - origin) * t,
-        direction: direction + (rim.direction - direction) * t,
-        origin_slope: rim.origin - origin,
-        direction_slope: rim.direction - direction,
-    };
-    let along = (mouth.z - a) / (b - a);
-    let (_, (face, hit)) = legs(target, &spoke, (mouth.face, mouth.at, along))?;
-    let mut start = (face, hit.at, hit.along);
-    let mut out = Vec::with_capacity(shape.sections[section].paths.len());
-    for (k, path) in shape.sections[section].paths.iter().enumerate() {
-        if path.is_point() {
-            out.push(Vec::new());
-            continue;
-        }
-        let rays = |t: f64| ray(shape, section, k, t);
-        let (path_legs, (face, hit)) = legs(target, &rays, start)?;
-        start = (face, hit.at, hit.along);
-        // A bore of several stages must not end within another stage.
-        if shape.sections.len() > 2 {
-            let beyond = if section == 0 { hit.along - 1.0 } else { -hit.along };
-            if beyond > 0.0 {
-                return Err(BoreError::TooShort(beyond * (b - a)));
-            }
-        }
-        out.push(path_legs);
-    }
-    Ok(out)
-}
-
-/// The paths cut wherever one of their ends crosses a border.
-fn pieces(shape: &BoreShape, end_legs: &[Vec<Vec<Leg>>; 2]) -> Vec<Piece> {
-    let mut out = Vec::new();
-    for path in 0..shape.sections[0].paths.len() {
-        let crossings = end_legs.iter().flat_map(|legs| &legs[path]).filter_map(|leg| leg.crossing);
-        let mut cuts: Vec<f64> = [0.0, 1.0].into_iter().chain(crossings.map(|c| c.t)).collect();
-        cuts.sort_by(f64::total_cmp);
-        out.extend(cuts.windows(2).map(|pair| Piece { path, from: pair[0], to: pair[1] }));
-    }
-    out
-}
-
-/// The leg on which a piece lies.
-fn leg_of<'l>(legs: &'l [Leg], piece: &Piece) -> &'l Leg {
-    let middle = 0.5 * (piece.from + piece.to);
-    legs.iter().find(|leg| middle <= leg.to).unwrap_or(&legs[legs.len() - 1])
 }
 
 /// Path, parameter and vertex of each crossing of one end.

@@ -6,6 +6,7 @@
 //! parameter, and imprinted into the faces they lie on.
 
 mod build;
+mod found;
 mod legs;
 mod ligament;
 mod rims;
@@ -13,7 +14,7 @@ mod ring;
 mod shape;
 mod target;
 
-pub(crate) use build::{BoreNames, Bored, Drill};
+pub(crate) use build::{BoreNames, Bored, Drill, Wholes};
 pub(crate) use ligament::{Hull, neighbours};
 pub(crate) use rims::{Rim, Rims};
 pub(crate) use shape::{BoreShape, Frame, circle, fanned, racetrack, rounded_rectangle, stretched_circle};

@@ -23,7 +23,7 @@ pub(super) struct Trace {
 }
 
 /// Cubic interpolation over equal steps of [0, 1] with given end slopes, kept by the number of spans.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Interpolators(HashMap<usize, Interpolator>);
 
 impl Interpolators {

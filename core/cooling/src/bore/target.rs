@@ -51,6 +51,39 @@ pub(crate) struct Crossing {
     pub(crate) along: f64,
 }
 
+/// What has been asked of the borders of a target's faces, and answered: nothing else that is found on a target depends
+/// on how bores before have parted its faces.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inquiry {
+    pub(super) face: FaceId,
+    side: Side,
+    free: f64,
+    pub(super) answer: Option<Over>,
+}
+
+/// The edge at a place of a face's side, its parameter there, and the face beyond with its parameters.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Over {
+    pub(super) edge: EdgeId,
+    pub(super) edge_t: f64,
+    pub(super) to: FaceId,
+    pub(super) to_at: DVec2,
+}
+
+impl Inquiry {
+    /// The answer that `face` of another target gives in place of this one's, none if it is another: another place of an
+    /// edge, or of the face beyond.
+    pub(super) fn again(&self, target: &Target<'_>, face: FaceId) -> Option<Option<Over>> {
+        let answer = target.asked(face, self.side, self.free).ok();
+        let same = match (&self.answer, &answer) {
+            (None, None) => true,
+            (Some(a), Some(b)) => a.edge_t == b.edge_t && a.to_at == b.to_at,
+            _ => false,
+        };
+        same.then_some(answer)
+    }
+}
+
 /// A side of a face's rectangle of parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Side {
@@ -62,13 +95,20 @@ enum Side {
 pub(crate) struct Target<'m> {
     model: &'m Model,
     faces: &'m [FaceId],
+    /// All that has been asked of the borders.
+    inquiries: RefCell<Vec<Inquiry>>,
     /// The face met last: the next meeting is mostly nearby.
     last: RefCell<Option<(FaceId, SurfaceProbe<'m>)>>,
 }
 
 impl<'m> Target<'m> {
     pub(super) fn new(model: &'m Model, faces: &'m [FaceId]) -> Self {
-        Self { model, faces, last: RefCell::new(None) }
+        Self { model, faces, inquiries: RefCell::default(), last: RefCell::default() }
+    }
+
+    /// All that has been asked of the borders.
+    pub(super) fn into_inquiries(self) -> Vec<Inquiry> {
+        self.inquiries.into_inner()
     }
 
     /// The surface of a face.
@@ -105,7 +145,7 @@ impl<'m> Target<'m> {
                 Side::U(_) => hit.at.y,
                 Side::V(_) => hit.at.x,
             };
-            let (_, _, to, to_at) = self.over_border(face, side, free)?;
+            let Over { to, to_at, .. } = self.over_border(face, side, free)?;
             face = to;
             hit = self.meet(face, ray, to_at, hit.along).ok_or(BoreError::Misses)?;
         }
@@ -224,17 +264,19 @@ impl<'m> Target<'m> {
             Side::U(_) => hit.at.y,
             Side::V(_) => hit.at.x,
         };
-        let (edge, edge_t, to, to_at) = self.over_border(face, side, free)?;
+        let Over { edge, edge_t, to, to_at } = self.over_border(face, side, free)?;
         Ok(Crossing { t, edge, edge_t, to, to_at, along: hit.along })
     }
 
-    /// The edge at a place of a face's side, its parameter there, and the face beyond with its parameters.
-    fn over_border(
-        &self,
-        face: FaceId,
-        side: Side,
-        free: f64,
-    ) -> Result<(EdgeId, f64, FaceId, DVec2), BoreError> {
+    /// What lies over a place of a face's side.
+    fn over_border(&self, face: FaceId, side: Side, free: f64) -> Result<Over, BoreError> {
+        let answer = self.asked(face, side, free);
+        let inquiry = Inquiry { face, side, free, answer: answer.as_ref().ok().copied() };
+        self.inquiries.borrow_mut().push(inquiry);
+        answer
+    }
+
+    fn asked(&self, face: FaceId, side: Side, free: f64) -> Result<Over, BoreError> {
         let leaves = || BoreError::Leaves(self.model.face(face).name.clone());
         let place = match side {
             Side::U(u) => DVec2::new(u, free),
@@ -259,7 +301,7 @@ impl<'m> Target<'m> {
             }
             for &to in self.faces.iter().filter(|f| **f != face) {
                 if let Some(twin) = border(to).find(|c| c.edge == coedge.edge) {
-                    return Ok((coedge.edge, t, to, twin.pcurve.point(t)));
+                    return Ok(Over { edge: coedge.edge, edge_t: t, to, to_at: twin.pcurve.point(t) });
                 }
             }
             return Err(leaves());

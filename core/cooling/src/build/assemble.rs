@@ -1,17 +1,18 @@
 //! From plan to solids, step by step: outer surface, passages, bores, caps, solids.
 
-use super::blank::Blank;
+use super::blank::{Blank, Parts};
 use super::clearance::{self, ChamberPolygon};
 use super::crossovers::{CrossoverGeometry, add_crossover_rows};
 use super::dust_holes::{DustHoleGeometry, add_dust_holes};
 use super::error::BuildError;
 use super::film::{FilmHoleGeometry, add_film_rows};
-use super::inserts::{InsertGeometry, InsertSite, JetGeometry, add_inserts, add_jets};
+use super::hollow::Hollow;
+use super::inserts::{InsertGeometry, JetGeometry, add_jets};
+use super::kept::KeptBuild;
 use super::ligaments::Ligaments;
-use super::passages::{Host, Passage, PassageEnd, PassageParts, add_chambers};
+use super::passages::{Host, Passage, PassageEnd, PassageParts};
 use super::pins::{PinGeometry, add_pin_arrays};
 use super::pointed::add_pointed_tube;
-use super::probe::Probe;
 use super::radial_holes::{RadialHoleGeometry, patches, place};
 use super::sections::{Grid, Section, span_fractions};
 use super::sides::Sides;
@@ -20,12 +21,12 @@ use super::solids::{SolidParts, add_caps, add_solids};
 use super::stack::Stack;
 use super::style;
 use super::tube::{CutTube, Patch, add_tube};
-use super::turns::{ShellCheck, settled, sites};
 use crate::bore::Rims;
 use crate::plan::Plan;
-use coolinggen_blade::{Blade, Fault, StreamSpace, StreamSurface};
+use crate::watch::Watch;
+use coolinggen_blade::{Blade, StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, Model};
-use std::collections::HashMap;
+use std::sync::Arc;
 
 /// A built design.
 #[derive(Clone, Debug)]
@@ -70,40 +71,23 @@ pub struct Bores {
     pub jets: Vec<JetGeometry>,
 }
 
-/// Builds metal and coolant.
+/// Builds metal and coolant, reusing what `kept` has from the build before, and telling `watch`. `space` is the one that
+/// the blade was made in.
 ///
 /// # Errors
-/// [`BuildError::Refused`] with the faults of the design where what it asks for does not exist.
-pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBlade, BuildError> {
-    let mut model = Model::default();
-    let ends = [space.surface(0.0)?, space.surface(1.0)?];
-    let mut outer = add_blade(&mut model, blade, [&ends[0], &ends[1]]).map_err(|e| e.blamed_on("/blade"))?;
-    let mut passages = Vec::new();
-    let mut inserts = Vec::new();
-    let mut radial_holes = Vec::new();
-    let (mut grid, mut stack) = (None, None);
-    if !plan.chambers.is_empty() || !plan.radial_holes.is_empty() {
-        if blade.surface.tip().is_some() {
-            let message = "this blade ends in a point: there is no tip that passages could open at";
-            return Err(BuildError::Refused(vec![Fault::new("/cooling", "pointed_tip", message)]));
-        }
-        let grid = grid.insert(Grid::new(blade)?);
-        let mut polygons = Vec::new();
-        if let (Some(shell), false) = (&plan.shell, plan.chambers.is_empty()) {
-            let blamed = |e: BuildError| e.blamed_on("/cooling/chambers");
-            let stack = stack.insert(settled(blade, space, grid, plan, shell).map_err(blamed)?);
-            let turns = sites(stack, plan).map_err(blamed)?;
-            let check = ShellCheck { probe: Probe::new(blade), blade, space, shell };
-            (passages, polygons) =
-                add_chambers(&mut model, blade, stack, plan, &turns, &check).map_err(blamed)?;
-            let site = InsertSite { blade, space, grid, plan, shell, stack };
-            inserts = add_inserts(&mut model, &site, &mut passages)?;
-        }
-        if !plan.radial_holes.is_empty() {
-            radial_holes = place_radial_holes(blade, space, grid, plan, &polygons)?;
-            passages.extend(add_radial_holes(&mut model, &radial_holes, &ends)?);
-        }
-    }
+/// [`BuildError::Refused`] with the faults of the design where what it asks for does not exist;
+/// [`BuildError::Cancelled`].
+pub fn build(
+    blade: &Arc<Blade>,
+    space: &StreamSpace,
+    plan: &Plan,
+    kept: &mut KeptBuild,
+    watch: &dyn Watch,
+) -> Result<CooledBlade, BuildError> {
+    let hollow = kept.hollow(blade, plan, |plan| Hollow::new(blade, space, plan, watch))?;
+    let Hollow { mut model, mut outer, mut passages, mut inserts, radial_holes, .. } = (*hollow).clone();
+    let Hollow { grid, stack, ends, .. } = &*hollow;
+    let lasting = model.faces.len();
     let mut blank = Blank {
         model: &mut model,
         outer: &mut outer.faces,
@@ -111,20 +95,23 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         inserts: &mut inserts,
         links: Vec::new(),
         outward: blade.outward,
-        ends: &ends,
-        parts: HashMap::new(),
+        ends,
+        parts: Parts::of(lasting),
         least_ligament: plan.least_ligament,
         ligaments: Ligaments::default(),
         rims: Rims::default(),
+        kept: &mut kept.bores,
+        watch,
     };
-    let mut bores = match &grid {
+    let mut bores = match grid {
         Some(grid) => add_bores(&mut blank, (blade, space, grid), stack.as_ref(), plan)?,
         None => Bores::default(),
     };
     let rings = &outer.rings;
+    watch.go_on()?;
     let caps =
-        add_caps(blank.model, space, &ends, rings, blank.passages, blank.inserts, plan.inlet_extension)?;
-    if let Some(stack) = &stack {
+        add_caps(blank.model, space, ends, rings, blank.passages, blank.inserts, plan.inlet_extension)?;
+    if let Some(stack) = stack {
         bores.dust_holes = add_dust_holes(&mut blank, stack, plan, &caps)?;
     }
     let links = blank.links;
@@ -152,7 +139,7 @@ pub fn build(blade: &Blade, space: &StreamSpace, plan: &Plan) -> Result<CooledBl
         passage_faces,
         end_faces: caps.ends.iter().map(|used| used.face).collect(),
         closed_ends: caps.closed(),
-        end_surfaces: ends,
+        end_surfaces: ends.clone(),
         radial_holes,
         inserts,
         bores,
@@ -191,7 +178,7 @@ fn add_bores(
 }
 
 /// Where the radial holes are, clear of everything.
-fn place_radial_holes(
+pub(super) fn place_radial_holes(
     blade: &Blade,
     space: &StreamSpace,
     grid: &Grid,
@@ -207,7 +194,7 @@ fn place_radial_holes(
     Ok(placed)
 }
 
-fn add_radial_holes(
+pub(super) fn add_radial_holes(
     model: &mut Model,
     holes: &[RadialHoleGeometry],
     ends: &[StreamSurface; 2],
@@ -245,7 +232,11 @@ fn radial_hole_pointer(k: usize) -> String {
 
 /// The outer surface, a face a region, cut at hub and tip. A region is parted where the surface is only continuous: a
 /// face with a full knot inside is refused by FreeCAD's check, however smooth it is there.
-fn add_blade(model: &mut Model, blade: &Blade, ends: [&StreamSurface; 2]) -> Result<CutTube, BuildError> {
+pub(super) fn add_blade(
+    model: &mut Model,
+    blade: &Blade,
+    ends: [&StreamSurface; 2],
+) -> Result<CutTube, BuildError> {
     let knots = blade.surface.knots_u();
     let mut patches = Vec::new();
     for (region, [start, end]) in &blade.regions {

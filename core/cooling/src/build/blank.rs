@@ -2,15 +2,20 @@
 
 use super::error::BuildError;
 use super::inserts::Insert;
+use super::kept::KeptBores;
 use super::ligaments::Ligaments;
 use super::passages::{Branch, Host, Link, Passage, PassagePart};
 use super::style;
-use crate::bore::{BoreError, BoreNames, BoreShape, Bored, Drill, Mouth, Rim, Rims};
+use crate::bore::{BoreError, BoreNames, BoreShape, Bored, Mouth, Rim, Rims, Wholes};
+use crate::watch::Watch;
 use coolinggen_blade::{Region, StreamSurface};
-use coolinggen_brep::{CastHit, Caster, Face, FaceDomain, FaceId, FaceUse, Loop, Model, SurfaceGeometry};
+use coolinggen_brep::{
+    CastHit, Caster, Face, FaceDomain, FaceId, FaceUse, Key, Loop, Model, SurfaceGeometry,
+};
 use coolinggen_nurbs::{NurbsError, ParametricCurve, ParametricSurface, Surface};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// A blade with its passages, before its solids are made.
 pub(super) struct Blank<'a> {
@@ -25,14 +30,17 @@ pub(super) struct Blank<'a> {
     pub(super) outward: bool,
     /// Hub and tip.
     pub(super) ends: &'a [StreamSurface; 2],
-    /// Faces that bores have split off, each with the face whose surface it shares.
-    pub(super) parts: HashMap<FaceId, FaceId>,
+    /// Faces that bores have split off.
+    pub(super) parts: Parts,
     /// Least metal between neighbouring bores, mm.
     pub(super) least_ligament: f64,
     /// The bores through metal.
     pub(super) ligaments: Ligaments,
     /// Their borders on the faces they end on.
     pub(super) rims: Rims,
+    /// What is known of the bores of the build before.
+    pub(super) kept: &'a mut KeptBores,
+    pub(super) watch: &'a dyn Watch,
 }
 
 /// What a bore ends on.
@@ -69,13 +77,12 @@ impl Blank<'_> {
     /// `<path>/exit` that close the coolant there, one for each outer face that the bore breaks out of.
     pub(super) fn bore_out(
         &mut self,
-        drill: &mut Drill,
         shape: &BoreShape,
         passage: usize,
         mouths: [Mouth; 2],
         names: &BoreNames<'_>,
     ) -> Result<Vec<FaceId>, BoreError> {
-        let bored = self.bore(drill, shape, [Side::Passage(passage), Side::Outer], mouths, names)?;
+        let bored = self.bore(shape, [Side::Passage(passage), Side::Outer], mouths, names)?;
         let [_, upper] = bored.imprints;
         let mut exits = Vec::with_capacity(1);
         for (i, (parent, border)) in upper.inside.into_iter().enumerate() {
@@ -88,7 +95,7 @@ impl Blank<'_> {
             } else {
                 format!("{}/exit/{}", names.path, i + 1)
             };
-            exits.push(add_exit(self.model, name, parent, border));
+            exits.push(self.add_exit(name, parent, border));
         }
         let ends = exits.iter().map(|&face| FaceUse { face, forward: self.outward }).collect();
         self.passages[passage].branches.push(Branch { faces: bored.faces, ends });
@@ -100,13 +107,12 @@ impl Blank<'_> {
     /// points out of the coolant.
     pub(super) fn bore_between(
         &mut self,
-        drill: &mut Drill,
         shape: &BoreShape,
         passages: [usize; 2],
         mouths: [Mouth; 2],
         names: &BoreNames<'_>,
     ) -> Result<Vec<(FaceId, bool)>, BoreError> {
-        let bored = self.bore(drill, shape, passages.map(Side::Passage), mouths, names)?;
+        let bored = self.bore(shape, passages.map(Side::Passage), mouths, names)?;
         self.links.push(Link { passages, faces: bored.faces.clone(), host: Host::Metal });
         Ok(bored.faces)
     }
@@ -114,14 +120,13 @@ impl Blank<'_> {
     /// Bores through the sheet of an insert, from its plenum (the first mouth) to the gap.
     pub(super) fn bore_jet(
         &mut self,
-        drill: &mut Drill,
         shape: &BoreShape,
         insert: usize,
         mouths: [Mouth; 2],
         names: &BoreNames<'_>,
     ) -> Result<(), BoreError> {
         let [gap, plenum] = self.inserts[insert].passages;
-        let bored = self.bore(drill, shape, [Side::Passage(plenum), Side::Insert(insert)], mouths, names)?;
+        let bored = self.bore(shape, [Side::Passage(plenum), Side::Insert(insert)], mouths, names)?;
         self.links.push(Link { passages: [gap, plenum], faces: bored.faces, host: Host::Insert(insert) });
         Ok(())
     }
@@ -129,13 +134,12 @@ impl Blank<'_> {
     /// A pin through a passage: metal inside the bore, coolant round it.
     pub(super) fn pin(
         &mut self,
-        drill: &mut Drill,
         shape: &BoreShape,
         passage: usize,
         mouths: [Mouth; 2],
         names: &BoreNames<'_>,
     ) -> Result<(), BoreError> {
-        let bored = self.bore(drill, shape, [Side::Passage(passage); 2], mouths, names)?;
+        let bored = self.bore(shape, [Side::Passage(passage); 2], mouths, names)?;
         let faces = bored.faces.into_iter().map(|(face, away)| (face, !away)).collect();
         self.passages[passage].pins.push(faces);
         Ok(())
@@ -145,7 +149,6 @@ impl Blank<'_> {
     /// Answers with the face `<path>/exit` that closes the coolant there.
     pub(super) fn bore_tip(
         &mut self,
-        drill: &mut Drill,
         shape: &BoreShape,
         (passage, cap): (usize, Option<FaceId>),
         tip: FaceUse,
@@ -153,10 +156,10 @@ impl Blank<'_> {
         names: &BoreNames<'_>,
     ) -> Result<FaceId, BoreError> {
         let from = cap.map_or(Side::Passage(passage), Side::Face);
-        let bored = self.bore(drill, shape, [from, Side::Face(tip.face)], mouths, names)?;
+        let bored = self.bore(shape, [from, Side::Face(tip.face)], mouths, names)?;
         let [_, upper] = bored.imprints;
         let border = upper.inside.into_iter().next().map(|(_, border)| border).unwrap_or_default();
-        let exit = add_exit(self.model, format!("{}/exit", names.path), tip.face, border);
+        let exit = self.add_exit(format!("{}/exit", names.path), tip.face, border);
         let ends = vec![FaceUse { face: exit, forward: tip.forward }];
         self.passages[passage].branches.push(Branch { faces: bored.faces, ends });
         Ok(exit)
@@ -165,7 +168,6 @@ impl Blank<'_> {
     /// Bores between the faces of two sides and keeps the parts that it makes of them.
     fn bore(
         &mut self,
-        drill: &mut Drill,
         shape: &BoreShape,
         sides: [Side; 2],
         mouths: [Mouth; 2],
@@ -180,10 +182,10 @@ impl Blank<'_> {
         let least = if in_sheet { 0.0 } else { self.least_ligament };
         let (rims, parts) = (&mut self.rims, &self.parts);
         let mut clear = |mut new: [Rim; 2]| {
-            new.iter_mut().flat_map(|rim| &mut rim.faces).for_each(|face| *face = whole(parts, *face));
+            new.iter_mut().flat_map(|rim| &mut rim.faces).for_each(|face| *face = parts.whole(*face));
             rims.add(names.path, new, least)
         };
-        let bored = drill.bore(self.model, shape, ends, names, &mut clear)?;
+        let bored = self.kept.drill.bore(self.model, shape, ends, names, parts, &mut clear)?;
         for (side, imprint) in sides.iter().zip(&bored.imprints) {
             let faces = match side {
                 Side::Passage(passage) => &mut self.passages[*passage].faces,
@@ -193,8 +195,8 @@ impl Blank<'_> {
             };
             faces.extend(imprint.parts.iter().map(|(part, _)| *part));
             for &(part, from) in &imprint.parts {
-                let whole = self.whole(from);
-                self.parts.insert(part, whole);
+                let whole = self.parts.whole(from);
+                self.parts.of.insert(part, whole);
             }
         }
         Ok(bored)
@@ -202,14 +204,32 @@ impl Blank<'_> {
 
     /// The face that a part was split off from, or the face itself.
     pub(super) fn whole(&self, face: FaceId) -> FaceId {
-        whole(&self.parts, face)
+        self.parts.whole(face)
+    }
+
+    /// What lines meet of the passages.
+    pub(super) fn passage_caster(&mut self) -> Arc<Caster> {
+        let faces: Vec<FaceId> = self.passages.iter().flat_map(|p| p.faces.iter().copied()).collect();
+        self.caster(&faces)
+    }
+
+    /// What lines meet of faces; parts are met as what they are parts of.
+    pub(super) fn caster(&mut self, faces: &[FaceId]) -> Arc<Caster> {
+        let lasting: Vec<FaceId> = faces.iter().copied().filter(|face| self.parts.lasts(*face)).collect();
+        let key = lasting.iter().fold(Key::default(), |key, face| key.and(face.0));
+        let kept = self.kept.casters.find(&key);
+        kept.unwrap_or_else(|| {
+            let caster = Arc::new(Caster::new(self.model, lasting));
+            self.kept.casters.keep(key, Arc::clone(&caster));
+            caster
+        })
     }
 
     /// The part of a face that holds a place in its parameters.
     fn part_at(&self, face: FaceId, at: DVec2) -> FaceId {
         let face = self.whole(face);
         let mut parts: Vec<FaceId> =
-            self.parts.iter().filter(|(_, whole)| **whole == face).map(|(part, _)| *part).collect();
+            self.parts.of.iter().filter(|(_, whole)| **whole == face).map(|(part, _)| *part).collect();
         parts.sort();
         let holds = |part: &FaceId| FaceDomain::new(self.model.face(*part)).contains(at);
         parts.into_iter().find(holds).unwrap_or(face)
@@ -231,13 +251,14 @@ impl Blank<'_> {
     }
 
     /// What lines meet of one region of the outer surface, as it was before any bore.
-    pub(super) fn outer_caster(&self, region: Region) -> Caster {
+    pub(super) fn outer_caster(&mut self, region: Region) -> Arc<Caster> {
         let path = format!("blade/{}", region.name());
         let own = |face: &&FaceId| {
             let rest = self.model.face(**face).name.strip_prefix(&path);
             rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
         };
-        Caster::new(self.model, self.outer.iter().filter(own).copied())
+        let faces: Vec<FaceId> = self.outer.iter().filter(own).copied().collect();
+        self.caster(&faces)
     }
 
     /// The outer face that a point of the blade's surface lies on, with u in [0, 1].
@@ -246,6 +267,25 @@ impl Blank<'_> {
             let ((u0, u1), _) = self.model.face(face).surface.domain();
             (u0..=u1).contains(&at.x)
         })
+    }
+
+    /// The face that closes the coolant where a hole breaks out: a piece of the outer surface no larger than it must be.
+    fn add_exit(&mut self, name: String, parent: FaceId, border: Loop) -> FaceId {
+        let surface = match &self.model.face(parent).surface {
+            SurfaceGeometry::BSpline(surface) => {
+                let whole = self.parts.whole(parent);
+                let make =
+                    || Ok::<_, NurbsError>(window(surface, &border).unwrap_or_else(|| surface.clone()));
+                let window = if self.parts.lasts(whole) {
+                    self.kept.windows.get(Key::of(whole.0).and(&*border.coedges), make)
+                } else {
+                    make()
+                };
+                SurfaceGeometry::BSpline(window.unwrap_or_else(|_| surface.clone()))
+            }
+            other => other.clone(),
+        };
+        self.model.add_face(Face { name, surface, loops: vec![border], style: style::outlet() })
     }
 
     /// Distance from a breakout to hub or tip, mm, negative beyond: the outer faces end there before their surface.
@@ -263,20 +303,30 @@ impl Blank<'_> {
     }
 }
 
-/// The face that a part was split off from, or the face itself.
-fn whole(parts: &HashMap<FaceId, FaceId>, face: FaceId) -> FaceId {
-    parts.get(&face).copied().unwrap_or(face)
+/// Faces that bores have split off.
+#[derive(Clone, Debug)]
+pub(super) struct Parts {
+    /// Each with the face whose surface it shares.
+    of: HashMap<FaceId, FaceId>,
+    /// Number of faces before any bore.
+    lasting: usize,
 }
 
-/// The face that closes the coolant where a hole breaks out: a piece of the outer surface no larger than it must be.
-fn add_exit(model: &mut Model, name: String, parent: FaceId, border: Loop) -> FaceId {
-    let surface = match &model.face(parent).surface {
-        SurfaceGeometry::BSpline(surface) => {
-            SurfaceGeometry::BSpline(window(surface, &border).unwrap_or_else(|| surface.clone()))
-        }
-        other => other.clone(),
-    };
-    model.add_face(Face { name, surface, loops: vec![border], style: style::outlet() })
+impl Parts {
+    /// None yet, of a model with as many faces.
+    pub(super) fn of(faces: usize) -> Self {
+        Self { of: HashMap::new(), lasting: faces }
+    }
+}
+
+impl Wholes for Parts {
+    fn whole(&self, face: FaceId) -> FaceId {
+        self.of.get(&face).copied().unwrap_or(face)
+    }
+
+    fn lasts(&self, face: FaceId) -> bool {
+        face.0 < self.lasting
+    }
 }
 
 /// The part of a surface that holds a loop, with a margin.

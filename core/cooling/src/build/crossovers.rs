@@ -5,7 +5,7 @@ use super::chambers::{BACK, FRONT};
 use super::error::BuildError;
 use super::fit::{greatest, nearest};
 use super::style;
-use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, racetrack};
+use crate::bore::{BoreNames, BoreShape, Frame, Hull, Mouth, racetrack};
 use crate::plan::{CrossoverRowPlan, Plan};
 use coolinggen_blade::Fault;
 use coolinggen_brep::{CastHit, Caster, FaceId, SurfaceGeometry};
@@ -166,10 +166,10 @@ pub(super) fn add_crossover_rows(
     if !faults.is_empty() {
         return Err(BuildError::Refused(faults));
     }
-    let mut drill = Drill::default();
     let mut made = Vec::with_capacity(planned.len());
     for (hole, ligament) in planned.iter().zip(ligaments) {
-        match hole.drill(blank, &mut drill) {
+        blank.watch.go_on()?;
+        match hole.drill(blank) {
             Ok(()) => made.push(hole.geometry(ligament)),
             Err(fault) => faults.push(fault),
         }
@@ -268,7 +268,7 @@ impl<'p> Crossover<'p> {
         Hull::inside(ends, 0.5 * self.height())
     }
 
-    fn drill(&self, blank: &mut Blank<'_>, drill: &mut Drill) -> Result<(), Fault> {
+    fn drill(&self, blank: &mut Blank<'_>) -> Result<(), Fault> {
         let outline = racetrack(self.mouths[0].z, 0.5 * self.diameter, self.label.row.height_d);
         let frame = Frame::along(self.middle, self.axis, self.up);
         let shape = BoreShape::straight(frame, outline, self.length());
@@ -276,7 +276,7 @@ impl<'p> Crossover<'p> {
         let style = style::crossover();
         let names = BoreNames { path: &path, stages: &["bore"], style: &style };
         blank
-            .bore_between(drill, &shape, self.passages, self.mouths, &names)
+            .bore_between(&shape, self.passages, self.mouths, &names)
             .map(|_| ())
             .map_err(|error| self.label.fault(error.code(), error))
     }

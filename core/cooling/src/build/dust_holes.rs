@@ -8,7 +8,7 @@ use super::passages::ring_at;
 use super::solids::Caps;
 use super::stack::Stack;
 use super::style;
-use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle};
+use crate::bore::{BoreNames, BoreShape, Frame, Hull, Mouth, circle};
 use crate::plan::{DustHolePlan, Plan};
 use coolinggen_blade::{Fault, StreamSurface};
 use coolinggen_brep::{CastHit, Caster, FaceDomain, FaceId, FaceUse};
@@ -78,10 +78,10 @@ pub(super) fn add_dust_holes(
     if !faults.is_empty() {
         return Err(BuildError::Refused(faults));
     }
-    let mut drill = Drill::default();
     let mut made = Vec::with_capacity(planned.len());
     for (hole, ligament) in planned.iter().zip(ligaments) {
-        match hole.drill(blank, &mut drill, tip) {
+        blank.watch.go_on()?;
+        match hole.drill(blank, tip) {
             Ok(exit) => made.push(hole.geometry(blank, exit, ligament)),
             Err(fault) => faults.push(fault),
         }
@@ -248,7 +248,7 @@ impl<'p> Dust<'p> {
         Hull::inside(ends, 0.5 * self.plan.diameter)
     }
 
-    fn drill(&self, blank: &mut Blank<'_>, drill: &mut Drill, tip: FaceUse) -> Result<FaceId, Fault> {
+    fn drill(&self, blank: &mut Blank<'_>, tip: FaceUse) -> Result<FaceId, Fault> {
         let [inner, outer] = &self.mouths;
         let length = outer.z - inner.z;
         let shape = BoreShape::straight(self.frame, circle(inner.z, 0.5 * self.plan.diameter), length);
@@ -256,7 +256,7 @@ impl<'p> Dust<'p> {
         let style = style::dust_hole();
         let names = BoreNames { path: &path, stages: &["bore"], style: &style };
         blank
-            .bore_tip(drill, &shape, (self.passage, self.cap), tip, self.mouths, &names)
+            .bore_tip(&shape, (self.passage, self.cap), tip, self.mouths, &names)
             .map_err(|error| self.plan.fault(error.code(), error))
     }
 

@@ -31,6 +31,8 @@ pub enum BuildError {
         /// What is wrong with it.
         what: String,
     },
+    /// [`crate::Watch::cancelled`] said so.
+    Cancelled,
 }
 
 impl BuildError {
@@ -94,7 +96,10 @@ impl BuildError {
 
     /// The failure as a fault of the parameter at `pointer`, unless it names its parameters already.
     pub(super) fn blamed_on(self, pointer: &str) -> Self {
-        Self::Refused(self.faults_at(pointer))
+        match self {
+            Self::Cancelled => self,
+            _ => Self::Refused(self.faults_at(pointer)),
+        }
     }
 
     /// The failure as faults of the design; what names no parameter is the blade's.
@@ -112,6 +117,7 @@ impl BuildError {
             Self::Blade(_) | Self::NoCrossing { .. } => {
                 "what runs from hub to tip must cross every stream surface on its way, once and not along it"
             }
+            Self::Cancelled => return Vec::new(),
             Self::Kernel(_) | Self::Topology(_) => "a shape there is too small, too sharp or folded",
             Self::Unsound { .. } => {
                 "smoother contours and blade surfaces, or other places of what meets there, help"
@@ -142,6 +148,7 @@ impl fmt::Display for BuildError {
             }
             Self::Topology(error) => error.fmt(f),
             Self::Kernel(error) => error.fmt(f),
+            Self::Cancelled => write!(f, "the build was cancelled"),
             Self::Unsound { solid, what } => write!(f, "the solid {solid} came out unsound: {what}"),
         }
     }

@@ -141,6 +141,7 @@ pub(super) fn add_chambers(
             let name = &plan.chambers[k].name;
             let names = face_names(plan, k, &format!("chamber/{name}"));
             let look = TubeLook { names, style: style::chamber(name) };
+            check.watch.go_on()?;
             tubes.push(add_chamber(model, &look, sections, nodes)?);
         }
         // A chamber ends where it has no turn; alone it ends at both sides.

@@ -8,7 +8,7 @@ use super::fit::{greatest, nearest};
 use super::ligaments::Ligaments;
 use super::stack::Stack;
 use super::style;
-use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle};
+use crate::bore::{BoreNames, BoreShape, Frame, Hull, Mouth, circle};
 use crate::plan::{PinArrayPlan, Plan};
 use coolinggen_blade::Fault;
 use coolinggen_brep::{CastHit, Caster, FaceId};
@@ -97,10 +97,10 @@ pub(super) fn add_pin_arrays(
     if !faults.is_empty() {
         return Err(BuildError::Refused(faults));
     }
-    let mut drill = Drill::default();
     let mut made = Vec::with_capacity(planned.len());
     for (pin, gap) in planned.iter().zip(gaps) {
-        match pin.make(blank, &mut drill) {
+        blank.watch.go_on()?;
+        match pin.make(blank) {
             Ok(()) => made.push(pin.geometry(&plan.chambers[pin.label.array.chamber].name, gap)),
             Err(fault) => faults.push(fault),
         }
@@ -217,7 +217,7 @@ impl<'p> Pin<'p> {
         Hull::inside(ends, 0.5 * self.label.array.diameter)
     }
 
-    fn make(&self, blank: &mut Blank<'_>, drill: &mut Drill) -> Result<(), Fault> {
+    fn make(&self, blank: &mut Blank<'_>) -> Result<(), Fault> {
         let outline = circle(self.mouths[0].z, 0.5 * self.label.array.diameter);
         let frame = Frame::along(self.at.point, self.at.normal, self.at.up);
         let shape = BoreShape::straight(frame, outline, self.length());
@@ -226,7 +226,7 @@ impl<'p> Pin<'p> {
         let style = style::pin();
         let names = BoreNames { path: &path, stages: &["side"], style: &style };
         blank
-            .pin(drill, &shape, self.passage, self.mouths, &names)
+            .pin(&shape, self.passage, self.mouths, &names)
             .map_err(|error| self.label.fault("", error.code(), error))
     }
 

@@ -4,6 +4,7 @@ use super::annulus::add_walls;
 use super::error::BuildError;
 use super::tube::meet;
 use crate::design::Pattern;
+use crate::watch::Watch;
 use coolinggen_blade::{Blade, Fault, StreamSpace, StreamSurface};
 use coolinggen_brep::{
     Coedge, Edge, EdgeCurve, EdgeId, Face, FaceId, FaceUse, Loop, Model, Plane, Shell, Solid,
@@ -26,20 +27,22 @@ pub fn add_row(
     blade: &Blade,
     space: &StreamSpace,
     pattern: &Pattern,
+    watch: &dyn Watch,
 ) -> Result<(), BuildError> {
     if matches!(space, StreamSpace::Linear(_)) {
         let message = "a row around the machine axis needs an annular space";
         return Err(BuildError::Refused(vec![Fault::new("/pattern", "space", message)]));
     }
     check_room(blade, space, pattern.count)?;
-    repeat(model, pattern.count)?;
+    repeat(model, pattern.count, watch)?;
     add_walls(model, space, pattern)
 }
 
 /// Copies all solids of `model`, turned about the axis: `count` of each in all, evenly spread.
-fn repeat(model: &mut Model, count: u32) -> Result<(), NurbsError> {
+fn repeat(model: &mut Model, count: u32, watch: &dyn Watch) -> Result<(), BuildError> {
     let first = model.clone();
     for k in 1..count {
+        watch.go_on()?;
         let angle = TAU * f64::from(k) / f64::from(count);
         let turn = Turn { sin: angle.sin(), cos: angle.cos() };
         let name = |name: &str| format!("{name}/{}", k + 1);

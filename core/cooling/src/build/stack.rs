@@ -7,6 +7,7 @@ use super::shell::{EndRadii, OffsetSection, asked_thickness, offset_section};
 use super::spans::{Spans, spans};
 use crate::plan::{Plan, ShellPlan};
 use crate::section::circle_of_radius;
+use crate::watch::Watch;
 use coolinggen_blade::{Blade, StreamSpace};
 use coolinggen_nurbs::{ParametricCurve, ParametricSurface, Projection};
 use glam::DVec3;
@@ -38,6 +39,7 @@ impl Stack {
         plan: &Plan,
         shell: &ShellPlan,
         clearances: &[f64],
+        watch: &dyn Watch,
     ) -> Result<Self, BuildError> {
         let spans = spans(blade, space, grid, plan, shell, clearances)?;
         let mut fractions = span_fractions(&spans.chambers);
@@ -45,9 +47,9 @@ impl Stack {
         fractions.sort_by(f64::total_cmp);
         fractions.dedup();
         let front = reach(&spans, plan, 0);
-        let sections =
-            fractions.iter().map(|&v| Section::new(blade, space, grid, v)).collect::<Result<_, _>>()?;
-        Self::through(blade, grid, sections, spans, plan, shell, Some(front))
+        let section = |&v: &f64| watch.go_on().and_then(|()| Section::new(blade, space, grid, v));
+        let sections = fractions.iter().map(section).collect::<Result<_, _>>()?;
+        Self::through(blade, grid, sections, spans, plan, shell, Some(front), watch)
     }
 
     /// The stack through given sections. `front` is the range of span fractions in which the leading chamber must be
@@ -60,6 +62,7 @@ impl Stack {
         plan: &Plan,
         shell: &ShellPlan,
         front: Option<[f64; 2]>,
+        watch: &dyn Watch,
     ) -> Result<Self, BuildError> {
         let walls = plan.walls.iter().map(|wall| wall_lines(&sections, wall)).collect::<Result<_, _>>()?;
         let (first, last) = (&plan.chambers[0], &plan.chambers[plan.chambers.len() - 1]);
@@ -70,6 +73,7 @@ impl Stack {
             EndRadii { front: first.fillet_radius.at(v), back: last.fillet_radius.at(v) }
         };
         for section in &sections {
+            watch.go_on()?;
             match offset_section(blade, grid, section, shell, ends(section)) {
                 Ok(offset) => offsets.push(offset),
                 Err(BuildError::Refused(faults)) => refusals.extend(faults),

@@ -13,6 +13,7 @@ use super::tube::CutTube;
 use crate::plan::{Plan, ShellPlan, TurnPlan};
 use crate::section::SEGMENTS;
 use crate::turn::{EndRow, PARTS, TurnRefusal, TurnRequest, TurnSection, TurnShape, loft, mirrored};
+use crate::watch::Watch;
 use coolinggen_blade::{Blade, Fault, Region, StreamSpace};
 use coolinggen_brep::{
     Coedge, EdgeId, Face, FaceId, Loop, Model, SurfaceGeometry, VertexId, straight_pcurve,
@@ -68,17 +69,19 @@ pub(super) fn settled(
     grid: &Grid,
     plan: &Plan,
     shell: &ShellPlan,
+    watch: &dyn Watch,
 ) -> Result<Stack, BuildError> {
     // About the half chord of a chamber: a start from which the areas tell the rest.
     let start = 0.1 * space.height();
     let mut clearances: Vec<f64> = plan.turns.iter().map(|t| t.clearance.unwrap_or(start)).collect();
     for _ in 0..ROUNDS {
-        let stack = Stack::new(blade, space, grid, plan, shell, &clearances)?;
+        let stack = Stack::new(blade, space, grid, plan, shell, &clearances, watch)?;
         let mut settled = true;
         for (clearance, site) in clearances.iter_mut().zip(sites(&stack, plan)?) {
             if site.plan.clearance.is_some() {
                 continue;
             }
+            watch.go_on()?;
             let shape = site.shape(std::array::from_fn(|_| coarse_nodes()))?;
             let [front, top, back] = [0.0, 0.5, 1.0].map(|p| shape.area(p));
             let wanted = 0.5 * (front + back);
@@ -90,7 +93,7 @@ pub(super) fn settled(
             return Ok(stack);
         }
     }
-    Stack::new(blade, space, grid, plan, shell, &clearances)
+    Stack::new(blade, space, grid, plan, shell, &clearances, watch)
 }
 
 fn coarse_nodes() -> Vec<f64> {
@@ -159,6 +162,7 @@ pub(super) struct ShellCheck<'a> {
     pub(super) blade: &'a Blade,
     pub(super) space: &'a StreamSpace,
     pub(super) shell: &'a ShellPlan,
+    pub(super) watch: &'a dyn Watch,
 }
 
 impl ShellCheck<'_> {
@@ -210,7 +214,7 @@ pub(super) fn add_turn(
     let shape = site.shape(std::array::from_fn(|k| ends[0].curves[k].breaks()))?;
     // With q away from the front chamber's end at the tip, towards it at the hub, (t, q) turns as the chambers' (t, v).
     let first = 1 - side;
-    let lofted = loft(&shape, &ends, first)?;
+    let lofted = loft(&shape, &ends, first, check.watch)?;
     let refusal = match lofted.fold() {
         None => check.thin(&lofted.surfaces)?,
         folded => folded,

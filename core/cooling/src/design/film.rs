@@ -82,7 +82,7 @@ pub struct FilmHole {
 }
 
 /// Shape of a film hole.
-#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum HoleShape {
     /// Round and straight.

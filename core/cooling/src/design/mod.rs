@@ -16,6 +16,7 @@ mod schema;
 mod slots;
 mod spelling;
 mod turns;
+mod words;
 
 pub use chambers::{Chamber, Shell, Wall};
 pub use crossovers::CrossoverRow;
@@ -47,19 +48,24 @@ pub struct Design {
     pub format: String,
     /// Name of the design; the names of the files written begin with it.
     #[schemars(regex(pattern = r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$"))]
+    #[schemars(extend("group" = "Design"))]
     pub name: String,
     /// A sentence about the design.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("group" = "Design"))]
     pub description: Option<String>,
     /// Where the blade stands: an annulus or a linear cascade.
+    #[schemars(extend("group" = "Blade"))]
     pub space: SpaceSpec,
     /// The blade's outer surface.
+    #[schemars(extend("group" = "Blade"))]
     pub blade: BladeSource,
     /// What is inside; a blade without it is exported solid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cooling: Option<Cooling>,
     /// The row that the blade is one of; without it, one blade alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("group" = "Row"))]
     pub pattern: Option<Pattern>,
 }
 
@@ -69,56 +75,69 @@ pub struct Design {
 pub struct Cooling {
     /// Metal between the outer surface and the chambers. Needed when there are chambers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("group" = "Chambers"))]
     pub shell: Option<Shell>,
     /// Walls between chambers, from the leading to the trailing edge.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 32))]
+    #[schemars(extend("group" = "Chambers"))]
     pub walls: Vec<Wall>,
     /// Chambers from the leading to the trailing edge, one more than walls.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 33))]
+    #[schemars(extend("group" = "Chambers"))]
     pub chambers: Vec<Chamber>,
     /// Turns: each joins two neighbouring chambers at the tip or at the hub into one passage.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 64))]
+    #[schemars(extend("group" = "Chambers"))]
     pub turns: Vec<Turn>,
     /// Impingement inserts: sheet-metal tubes in chambers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 33))]
+    #[schemars(extend("group" = "Inserts"))]
     pub inserts: Vec<Insert>,
     /// Round passages straight from hub to tip.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
+    #[schemars(extend("group" = "Holes"))]
     pub radial_holes: Vec<RadialHole>,
     /// Rows of film holes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
+    #[schemars(extend("group" = "Film cooling"))]
     pub film_rows: Vec<FilmRow>,
     /// Rows of slots through the trailing edge.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
+    #[schemars(extend("group" = "Trailing edge"))]
     pub slot_rows: Vec<SlotRow>,
     /// Rows of holes through walls.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
+    #[schemars(extend("group" = "Holes"))]
     pub crossover_rows: Vec<CrossoverRow>,
     /// Arrays of pins between the sides of chambers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
+    #[schemars(extend("group" = "Pins"))]
     pub pin_arrays: Vec<PinArray>,
     /// Holes through the tip.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 1000))]
+    #[schemars(extend("group" = "Holes"))]
     pub dust_holes: Vec<DustHole>,
     /// Least metal between neighbouring holes, between neighbouring slots, and between a slot and the blade's sides, and
     /// least passage between neighbouring pins, mm; less is refused.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0), extend("unit" = "mm"))]
+    #[schemars(extend("group" = "Holes"))]
     pub least_ligament: f64,
     /// Length by which the coolant goes on straight before its inlets at the hub, along the hub's normal in the middle of
     /// each inlet to a plane across it, mm: room for a flow solver's inlet. The metal is as without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.01, max = 10_000.0), extend("unit" = "mm"))]
+    #[schemars(extend("group" = "Chambers"))]
     pub inlet_extension: Option<f64>,
 }
 

@@ -5,14 +5,19 @@
 
 use super::Design;
 use super::spelling::nearest;
+use super::words::add_titles;
 use coolinggen_blade::Fault;
 use serde_json::{Map, Value};
 use std::sync::OnceLock;
 
-/// JSON Schema (draft 2020-12) of a design.
+/// JSON Schema (draft 2020-12) of a design, with what forms show beside each field.
 pub fn design_schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
-    SCHEMA.get_or_init(|| schemars::schema_for!(Design).to_value())
+    SCHEMA.get_or_init(|| {
+        let mut schema = schemars::schema_for!(Design).to_value();
+        add_titles(&mut schema);
+        schema
+    })
 }
 
 /// More faults than this are counted, not listed: a million bad points say no more than a hundred.

@@ -39,7 +39,7 @@ pub struct SlotRow {
 }
 
 /// A pressure side cut back: between the lands the slot lies open from a lip to the trailing edge.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cutback {
     /// Thickness of the pressure side's wall at its end, mm, across the slot at half its height.

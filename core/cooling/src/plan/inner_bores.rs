@@ -5,7 +5,7 @@ use crate::design::{Cooling, CrossoverRow, DustHole, PinArray};
 use coolinggen_blade::{Fault, Law, Pointer};
 
 /// A row of crossover holes; see [`crate::design::CrossoverRow`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CrossoverRowPlan {
     /// Name.
     pub name: String,
@@ -30,7 +30,7 @@ pub struct CrossoverRowPlan {
 }
 
 /// An array of pins; see [`crate::design::PinArray`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PinArrayPlan {
     /// Name.
     pub name: String,
@@ -51,7 +51,7 @@ pub struct PinArrayPlan {
 }
 
 /// A dust hole; see [`crate::design::DustHole`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DustHolePlan {
     /// Name.
     pub name: String,

@@ -5,7 +5,7 @@ use crate::design::{Cooling, Insert, InsertSide, JetArray};
 use coolinggen_blade::{Fault, Law, Pointer};
 
 /// An insert; see [`crate::design::Insert`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct InsertPlan {
     /// Index in the design's list.
     pub index: usize,
@@ -28,7 +28,7 @@ pub struct InsertPlan {
 }
 
 /// An array of jets; see [`crate::design::JetArray`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct JetArrayPlan {
     /// Name.
     pub name: String,

@@ -5,7 +5,7 @@ use crate::design::{Clearance, Cooling, SpanEnd, Turn};
 use coolinggen_blade::{Fault, Pointer};
 
 /// A turn; see [`crate::design::Turn`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TurnPlan {
     /// Name.
     pub name: String,

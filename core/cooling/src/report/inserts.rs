@@ -2,7 +2,8 @@
 
 use super::Range;
 use crate::build::{BuildError, InsertGeometry, JetGeometry};
-use coolinggen_brep::{FaceId, FaceIntegrals, Model};
+use crate::watch::Watch;
+use coolinggen_brep::{FaceId, FaceIntegrals, Key, Memo, Model, Numbered};
 use coolinggen_nurbs::{ParametricSurface, project_on_surface};
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -76,13 +77,21 @@ pub(super) fn insert_report(
     integrals: &[FaceIntegrals],
     insert: &InsertGeometry,
     jets: &[JetGeometry],
+    (kept, numbered): (&mut Memo<Range>, &Numbered),
+    watch: &dyn Watch,
 ) -> Result<InsertReport, BuildError> {
+    let mut between = |from: &[FaceId], to: &[FaceId]| {
+        let key = from.iter().chain(to).fold(Key::default(), |key, &face| key.and(numbered.of(face)));
+        kept.get(key, || distances(model, from, to, watch))
+    };
+    let thickness_mm = between(&insert.inside, &insert.outside)?;
+    let gap_mm = between(&insert.outside, &insert.chamber)?;
     let own = || jets.iter().filter(|jet| jet.insert == insert.name);
     Ok(InsertReport {
         name: format!("insert/{}", insert.name),
         area_mm2: insert.sheet.iter().map(|face| integrals[face.0].area_mm2).sum(),
-        thickness_mm: distances(model, &insert.inside, &insert.outside)?,
-        gap_mm: distances(model, &insert.outside, &insert.chamber)?,
+        thickness_mm,
+        gap_mm,
         jets: own().count(),
         jet_area_mm2: own().fold(0.0, |sum, jet| sum + 0.25 * PI * jet.diameter * jet.diameter),
     })
@@ -90,7 +99,7 @@ pub(super) fn insert_report(
 
 /// Distances from points of one tube to another, whose eight faces stand opposite its own. Points beyond the other one's
 /// ends are left out.
-fn distances(model: &Model, from: &[FaceId], to: &[FaceId]) -> Result<Range, BuildError> {
+fn distances(model: &Model, from: &[FaceId], to: &[FaceId], watch: &dyn Watch) -> Result<Range, BuildError> {
     const ACROSS: u32 = 16;
     const ALONG: u32 = 12;
     let surface = |id: FaceId| &model.face(id).surface;
@@ -100,6 +109,7 @@ fn distances(model: &Model, from: &[FaceId], to: &[FaceId]) -> Result<Range, Bui
     let mut range = Range { min: f64::INFINITY, max: 0.0 };
     let count = from.len();
     for (k, &face) in from.iter().enumerate() {
+        watch.go_on()?;
         for (i, j) in (0..=ACROSS).flat_map(|i| (0..=ALONG).map(move |j| (i, j))) {
             let (t, v) =
                 (f64::from(i) / f64::from(ACROSS), low + (high - low) * f64::from(j) / f64::from(ALONG));

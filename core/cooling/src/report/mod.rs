@@ -2,13 +2,16 @@
 
 mod inner_bores;
 mod inserts;
+mod kept;
 mod passages;
 mod text;
 mod thickness;
+mod wall_field;
 
 use crate::build::{BuildError, CooledBlade, FilmHoleGeometry, RadialHoleGeometry, SlotGeometry};
+use crate::watch::Watch;
 use coolinggen_blade::{Blade, FitReport};
-use coolinggen_brep::{Face, FaceIntegrals, Model, SolidCheck, face_integrals};
+use coolinggen_brep::{Face, FaceIntegrals, Measures, Model, Numbered, SolidCheck, face_integrals};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -16,8 +19,10 @@ use thickness::thinnest_walls;
 
 pub use inner_bores::{CrossoverReport, DustHoleReport, PinReport};
 pub use inserts::{InsertReport, JetReport};
+pub use kept::KeptMeasures;
 pub use passages::{PartReport, PassageReport, StationReport};
 pub use thickness::ThinnestWall;
+pub use wall_field::WallField;
 
 /// Everything measured on a built design. Lengths mm, areas mm2, volumes mm3.
 #[derive(Clone, Debug, Serialize)]
@@ -229,14 +234,23 @@ pub struct Timings {
 }
 
 impl Report {
-    /// Measures a built design.
+    /// Measures a built design, reusing what `kept` has from the report before.
     ///
     /// # Errors
     /// [`BuildError`] where a measurement fails or a solid is unsound: open, of another genus than implied, or with
-    /// edges farther than 3e-8 mm off their faces.
-    pub fn new(name: &str, blade: &Blade, cooled: &CooledBlade) -> Result<Self, BuildError> {
+    /// edges farther than 3e-8 mm off their faces; [`BuildError::Cancelled`].
+    pub fn new(
+        name: &str,
+        blade: &Blade,
+        cooled: &CooledBlade,
+        kept: &mut KeptMeasures,
+        watch: &dyn Watch,
+    ) -> Result<Self, BuildError> {
         let model = &cooled.model;
-        let integrals: Vec<FaceIntegrals> = model.faces.iter().map(face_integrals).collect();
+        let stop = || watch.cancelled();
+        let numbered = kept.faces.numbered(model);
+        let integrals = kept.faces.face_integrals(model, &numbered, &stop);
+        watch.go_on()?;
         let mut report = Self {
             name: name.to_owned(),
             version: env!("CARGO_PKG_VERSION"),
@@ -261,20 +275,34 @@ impl Report {
             blade_fit: blade.fit.clone(),
             timings_ms: Timings::default(),
         };
-        report.measure_solids(model, &integrals)?;
-        let passages = cooled.passages.iter().map(|p| passages::passage(model, &p.name, &p.parts));
-        report.passages = passages.collect::<Result<_, _>>()?;
-        let inserts = cooled.inserts.iter();
-        let inserts = inserts.map(|i| inserts::insert_report(model, &integrals, i, &cooled.bores.jets));
-        report.inserts = inserts.collect::<Result<_, _>>()?;
-        let walls = thinnest_walls(blade, cooled)?;
+        report.measure_solids(model, &integrals, (&mut kept.faces, &numbered), watch)?;
+        for passage in &cooled.passages {
+            watch.go_on()?;
+            let key = passages::key(passage, &numbered);
+            let make = || passages::passage(model, &passage.name, &passage.parts);
+            report.passages.push(kept.passages.get(key, make)?);
+        }
+        for insert in &cooled.inserts {
+            let gaps = (&mut kept.gaps, &numbered);
+            let made = inserts::insert_report(model, &integrals, insert, &cooled.bores.jets, gaps, watch)?;
+            report.inserts.push(made);
+        }
+        let walls = thinnest_walls(blade, cooled, kept, &numbered, watch)?;
         report.radial_holes = cooled.radial_holes.iter().map(|hole| radial_hole(hole, &walls)).collect();
         report.wall_thickness_mm = walls.into_iter().min_by(|a, b| a.min.total_cmp(&b.min));
         Ok(report)
     }
 
-    fn measure_solids(&mut self, model: &Model, integrals: &[FaceIntegrals]) -> Result<(), BuildError> {
-        for (solid, check) in model.solids.iter().zip(model.check_solids()) {
+    fn measure_solids(
+        &mut self,
+        model: &Model,
+        integrals: &[FaceIntegrals],
+        (kept, numbered): (&mut Measures, &Numbered),
+        watch: &dyn Watch,
+    ) -> Result<(), BuildError> {
+        for solid in &model.solids {
+            let check = kept.check_solid(model, solid, numbered, &|| watch.cancelled());
+            watch.go_on()?;
             if let Some(what) = unsound(model, &check) {
                 return Err(BuildError::Unsound { solid: solid.name.clone(), what });
             }

@@ -1,7 +1,7 @@
 //! Passages: centre line, flow area, perimeter and hydraulic diameter along each chain of chambers and turns.
 
-use crate::build::{BuildError, PassagePart};
-use coolinggen_brep::{FaceId, Model};
+use crate::build::{BuildError, PassagePart, PassageParts};
+use coolinggen_brep::{FaceId, Key, Model, Numbered};
 use coolinggen_nurbs::{Interpolator, ParametricCurve, ParametricSurface};
 use glam::DVec3;
 use serde::Serialize;
@@ -46,6 +46,15 @@ pub struct StationReport {
 /// Intervals of a chamber and of a turn.
 const CHAMBER_STEPS: u32 = 8;
 const TURN_STEPS: u32 = 16;
+
+/// Everything that the table of a passage depends on.
+pub(super) fn key(passage: &PassageParts, numbered: &Numbered) -> Key {
+    passage.parts.iter().fold(Key::of(&*passage.name), |key, part| {
+        let numbers = |faces: &[FaceId]| faces.iter().map(|&face| numbered.of(face)).collect::<Vec<_>>();
+        let key = key.and((&*part.path, part.turn, part.reversed));
+        key.and((&*numbers(&part.faces), &*numbers(&part.inserted)))
+    })
+}
 
 /// The table of one passage.
 pub(super) fn passage(model: &Model, name: &str, parts: &[PassagePart]) -> Result<PassageReport, BuildError> {

@@ -1,8 +1,10 @@
 //! Wall thickness: the distance in space from the passages to the outer surface.
 
+use super::KeptMeasures;
 use crate::build::{BuildError, CooledBlade, Probe};
+use crate::watch::Watch;
 use coolinggen_blade::Blade;
-use coolinggen_brep::{Face, FaceId};
+use coolinggen_brep::{Face, FaceId, Key, Numbered};
 use coolinggen_nurbs::{ParametricCurve, ParametricSurface};
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -20,13 +22,26 @@ pub struct ThinnestWall {
 
 /// The thinnest wall of every passage face, in the order of the faces, and of its closed ends: sampled on a grid, then
 /// refined on the thinnest side face of all.
-pub(super) fn thinnest_walls(blade: &Blade, cooled: &CooledBlade) -> Result<Vec<ThinnestWall>, BuildError> {
+pub(super) fn thinnest_walls(
+    blade: &Blade,
+    cooled: &CooledBlade,
+    kept: &mut KeptMeasures,
+    numbered: &Numbered,
+    watch: &dyn Watch,
+) -> Result<Vec<ThinnestWall>, BuildError> {
     let probe = Probe::new(blade);
+    let outer = kept.faces.number(Key::of((blade.surface.geometry(), blade.outward)));
+    let key = |id: FaceId| {
+        let (low, high) = range(cooled.model.face(id));
+        Key::of((outer, numbered.of(id))).and((low, high))
+    };
+    let [coarsely, closely] = &mut kept.walls;
     let mut walls = Vec::new();
     let mut least: Option<(usize, FaceId, DVec2)> = None;
     for &id in &cooled.passage_faces {
+        watch.go_on()?;
         let face = cooled.model.face(id);
-        let (q, thickness) = coarse(&probe, face)?;
+        let (q, thickness) = coarsely.get(key(id), || coarse(&probe, face))?;
         if least.as_ref().is_none_or(|(k, ..)| thickness < at(&walls, *k)) {
             least = Some((walls.len(), id, q));
         }
@@ -41,7 +56,7 @@ pub(super) fn thinnest_walls(blade: &Blade, cooled: &CooledBlade) -> Result<Vec<
     }
     if let Some((k, id, q)) = least {
         let face = cooled.model.face(id);
-        let (q, thickness) = refined(&probe, face, q)?;
+        let (q, thickness) = closely.get(key(id), || refined(&probe, face, q))?;
         walls[k] = wall(face, q, thickness);
     }
     Ok(walls)

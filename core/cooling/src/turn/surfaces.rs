@@ -4,6 +4,7 @@ use super::shape::{STENCIL, TurnShape};
 use super::{PARTS, TurnRefusal};
 use crate::build::BuildError;
 use crate::section::SEGMENTS;
+use crate::watch::Watch;
 use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve, ParametricSurface, Surface};
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -33,9 +34,15 @@ const LEAST_ROWS: usize = 16;
 const MOST_ROWS: usize = 192;
 
 /// Lofts the rings between the ends of the front and the back chamber, from `first` (0 front, 1 back) to the other.
-pub(crate) fn loft(shape: &TurnShape, ends: &[EndRow; 2], first: usize) -> Result<TurnSurfaces, BuildError> {
+pub(crate) fn loft(
+    shape: &TurnShape,
+    ends: &[EndRow; 2],
+    first: usize,
+    watch: &dyn Watch,
+) -> Result<TurnSurfaces, BuildError> {
     let mut rows = LEAST_ROWS;
     loop {
+        watch.go_on()?;
         let made = loft_rows(shape, ends, first, rows)?;
         if made.deviation <= TOLERANCE || rows >= MOST_ROWS {
             return Ok(made);

@@ -9,10 +9,25 @@ use serde_json::{Value, json};
 /// The solids of a model: for each the vertices (x, y, z in mm) and unit normals as little-endian 32-bit floats, and
 /// triangles as 32-bit vertex indices, counterclockwise from outside, all in base64; and for each of its faces, in
 /// their order, the name, the colour and the number of vertices and triangles. Vertices are one a face, so that normals
-/// may differ over an edge.
-pub(super) fn solids(model: &Model, mesh: &Tessellation, wanted: impl Fn(&str) -> bool) -> Value {
+/// may differ over an edge. `walls` are values of the vertices of every face, to be given with them.
+pub(super) fn solids(
+    model: &Model,
+    mesh: &Tessellation,
+    wanted: impl Fn(&str) -> bool,
+    walls: Option<&[Vec<f32>]>,
+) -> Value {
     let chosen = model.solids.iter().filter(|solid| wanted(&solid.name));
-    chosen.map(|s| solid(model, s, mesh)).collect()
+    chosen
+        .map(|s| {
+            let mut made = solid(model, s, mesh);
+            if let Some(walls) = walls {
+                let values = s.faces().flat_map(|used| &walls[used.face.0]);
+                let bytes: Vec<u8> = values.flat_map(|value| value.to_le_bytes()).collect();
+                made["wall_thickness_mm"] = STANDARD.encode(bytes).into();
+            }
+            made
+        })
+        .collect()
 }
 
 fn solid(model: &Model, solid: &Solid, mesh: &Tessellation) -> Value {

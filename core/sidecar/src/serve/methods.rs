@@ -1,23 +1,30 @@
 //! The methods: one table of names, parameters and meanings, from which the page of the protocol is made, too.
 
 use super::mesh;
-use super::models::{Models, lock};
+use super::models::Models;
 use super::rpc::RpcError;
 use super::task::Task;
 use crate::export::{Export, Format, SolidChoice};
 use crate::templates::TEMPLATES;
 use coolinggen_blade::Fault;
+use coolinggen_brep::FaceId;
 use coolinggen_cooling::design::{Design, design_schema, faults_against};
+use coolinggen_cooling::report::WallField;
 use coolinggen_cooling::{Generated, Stopped, Watch};
-use coolinggen_exporters::{TessellationOptions, tessellate};
+use coolinggen_exporters::{FaceMesh, KeptMeshes, Tessellation, TessellationOptions, tessellate_again};
+use glam::DVec3;
 use schemars::{JsonSchema, schema_for};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, TryLockError};
+use std::thread;
+use std::time::Duration;
 
 /// Version of the protocol; it changes when clients of the one before would no longer understand.
 pub(super) const PROTOCOL: u32 = 1;
@@ -114,7 +121,9 @@ pub(super) static METHODS: &[Method] = &[
         summary: "Meshes of a model inside the message, for a preview.",
         result: "`solids`: for each its `name`; `vertices` (x, y, z in mm) and unit `normals`, little-endian 32-bit \
                  floats in base64; `triangles`, little-endian 32-bit vertex indices in base64; `faces` in their order, each \
-                 with `name`, `layer`, `color` and its numbers of `vertices` and `triangles`",
+                 with `name`, `layer`, `color` and its numbers of `vertices` and `triangles`; and, if it was wanted, \
+                 `wall_thickness_mm` of the vertices, little-endian 32-bit floats in base64: on passages the distance to the \
+                 outer surface, on that the way along its normal to the first passage, else no number (NaN)",
         quick: false,
         params: || schema_for!(Tessellate).to_value(),
         run: |context, params| mesh_of(context, &typed("model/tessellate", params)?),
@@ -224,6 +233,9 @@ struct Tessellate {
     angle_deg: f64,
     /// The solids wanted, by their names or the first parts of these; all if not given.
     solids: Option<Vec<String>>,
+    /// Whether the thickness of the metal is wanted at each vertex.
+    #[serde(default)]
+    wall_thickness: bool,
 }
 
 #[derive(Deserialize, JsonSchema)]
@@ -292,7 +304,7 @@ fn initialize(_: &Context<'_>, params: &Initialize) -> Result<Value, RpcError> {
         "protocol_version": PROTOCOL,
         "server": { "name": env!("CARGO_PKG_NAME"), "version": env!("CARGO_PKG_VERSION") },
         "format": coolinggen_cooling::design::FORMAT,
-        "schema_sha256": hash(design_schema().to_string().as_bytes()),
+        "schema_sha256": hexadecimal(&Sha256::digest(design_schema().to_string().as_bytes())),
         "units": { "length": "mm", "angle": "deg" },
         "methods": METHODS.iter().map(|m| m.name).chain(["shutdown"]).collect::<Vec<_>>(),
         "formats": ["step", "glb", "obj", "stl"],
@@ -325,12 +337,7 @@ fn generate(context: &Context<'_>, params: Generate) -> Result<Value, RpcError> 
     let name = params.model.unwrap_or_else(|| design.name.clone());
     let folder = params.folder.unwrap_or_else(|| PathBuf::from("."));
     let warm = context.models.warm(&name, context.client);
-    let result = {
-        let mut warm = lock(&warm);
-        // The wait for another generation of the same model may have been long.
-        context.task.go_on()?;
-        warm.generate(&design, &folder, context.task)
-    };
+    let result = patiently(&warm, context.task)?.generate(&design, &folder, context.task);
     let generated = Arc::new(result.map_err(|stopped| match stopped {
         Stopped::Refused(faults) => refused(faults),
         Stopped::Cancelled => RpcError::cancelled(),
@@ -342,6 +349,20 @@ fn generate(context: &Context<'_>, params: Generate) -> Result<Value, RpcError> 
         result["report"] = generated.report.to_json();
     }
     Ok(result)
+}
+
+/// Locks what another request may hold for long, unless this one is cancelled in the meantime. What a panic left is
+/// whole or empty.
+fn patiently<'m, T>(mutex: &'m Mutex<T>, task: &Task) -> Result<MutexGuard<'m, T>, RpcError> {
+    const PERIOD: Duration = Duration::from_millis(2);
+    loop {
+        task.go_on()?;
+        match mutex.try_lock() {
+            Ok(guard) => return Ok(guard),
+            Err(TryLockError::Poisoned(left)) => return Ok(left.into_inner()),
+            Err(TryLockError::WouldBlock) => thread::sleep(PERIOD),
+        }
+    }
 }
 
 /// The last generation of a model.
@@ -360,16 +381,41 @@ fn mesh_of(context: &Context<'_>, params: &Tessellate) -> Result<Value, RpcError
     let generated = last(context, &params.model)?;
     context.task.progress("tessellate", 0.0);
     let model = &generated.blade.model;
-    let mesh = tessellate(model, &tessellation(params.chord_mm, params.angle_deg))
-        .map_err(|e| RpcError::internal(e.to_string()))?;
+    let meshes = context.models.meshes(&params.model);
+    // Who tessellates beside another tessellation of the model does not wait for it.
+    let (mut kept, mut own) = (meshes.try_lock(), KeptMeshes::default());
+    let kept = kept.as_deref_mut().unwrap_or(&mut own);
+    let options = tessellation(params.chord_mm, params.angle_deg);
+    let mesh = tessellate_again(model, &options, kept, &|| context.task.cancelled());
     context.task.go_on()?;
+    let mesh = mesh.map_err(|e| RpcError::internal(e.to_string()))?;
     let wanted = |name: &str| {
         let begins = |part: &String| {
             name == part || name.strip_prefix(part.as_str()).is_some_and(|r| r.starts_with('/'))
         };
         params.solids.as_ref().is_none_or(|parts| parts.iter().any(begins))
     };
-    Ok(json!({ "solids": mesh::solids(model, &mesh, wanted) }))
+    let walls = if params.wall_thickness { Some(thickness(context, &generated, &mesh)?) } else { None };
+    Ok(json!({ "solids": mesh::solids(model, &mesh, wanted, walls.as_deref()) }))
+}
+
+/// The thickness of the metal at the vertices of every face, NaN where there is none.
+fn thickness(
+    context: &Context<'_>,
+    generated: &Generated,
+    mesh: &Tessellation,
+) -> Result<Vec<Vec<f32>>, RpcError> {
+    let field = WallField::new(generated);
+    let of_face = |(i, face): (usize, &FaceMesh)| {
+        let at = |(&point, &normal): (&u32, &DVec3)| {
+            context.task.go_on()?;
+            let found = field.at(FaceId(i), mesh.points[point as usize], normal);
+            let found = found.map_err(|e| RpcError::internal(e.to_string()))?;
+            Ok(found.map_or(f32::NAN, |thickness| thickness as f32))
+        };
+        face.points.iter().zip(&face.normals).map(at).collect()
+    };
+    mesh.faces.iter().enumerate().map(of_face).collect()
 }
 
 fn export(context: &Context<'_>, params: &ExportModel) -> Result<Value, RpcError> {
@@ -379,25 +425,36 @@ fn export(context: &Context<'_>, params: &ExportModel) -> Result<Value, RpcError
         formats: &params.formats,
         solids: &params.solids,
         tessellation: tessellation(params.chord_mm, params.angle_deg),
+        stop: &|| context.task.cancelled(),
     };
     let (mut done, steps) = (0.0, export.steps().max(1) as f64);
     let written = export.write(&generated, &mut |_| {
         context.task.progress("export", done / steps);
         done += 1.0;
-        !context.task.cancelled()
     });
-    let written = written.map_err(|f| RpcError::file(f.what, &f.path, &f.error))?;
     context.task.go_on()?;
-    let files: Vec<Value> = written.iter().map(|path| described(path)).collect::<Result<_, _>>()?;
+    let written = written.map_err(|f| RpcError::file(f.what, &f.path, &f.error))?;
+    let files: Vec<Value> =
+        written.iter().map(|path| described(path, context.task)).collect::<Result<_, _>>()?;
     Ok(json!({ "files": files }))
 }
 
 /// A file's path, size and hash.
-fn described(path: &Path) -> Result<Value, RpcError> {
-    let bytes = std::fs::read(path).map_err(|e| RpcError::file("read", path, e))?;
-    Ok(json!({ "path": path, "bytes": bytes.len(), "sha256": hash(&bytes) }))
+fn described(path: &Path, task: &Task) -> Result<Value, RpcError> {
+    let failed = |e: std::io::Error| RpcError::file("read", path, e);
+    let mut file = File::open(path).map_err(failed)?;
+    let (mut hash, mut size, mut part) = (Sha256::new(), 0, vec![0; 1 << 20]);
+    loop {
+        task.go_on()?;
+        let read = file.read(&mut part).map_err(failed)?;
+        if read == 0 {
+            return Ok(json!({ "path": path, "bytes": size, "sha256": hexadecimal(&hash.finalize()) }));
+        }
+        hash.update(&part[..read]);
+        size += read;
+    }
 }
 
-fn hash(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,6 +1,7 @@
 //! Warm models: what was generated last under each name, shared by all clients.
 
 use coolinggen_cooling::{Generated, Warm};
+use coolinggen_exporters::KeptMeshes;
 use std::collections::{BTreeSet, HashMap};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -14,6 +15,8 @@ pub(super) struct Models {
 struct Entry {
     /// What the next generation may reuse; locked while one runs.
     warm: Arc<Mutex<Warm>>,
+    /// What the next tessellation may reuse.
+    meshes: Arc<Mutex<KeptMeshes>>,
     /// The last generation, to be had while the next runs.
     last: Option<Arc<Generated>>,
     /// Clients that use it: it goes with the last of them.
@@ -48,6 +51,11 @@ impl Models {
         let last = entry.last.clone()?;
         entry.clients.insert(client);
         Some(last)
+    }
+
+    /// What tessellations of a model share; nothing of one that is not there.
+    pub(super) fn meshes(&self, name: &str) -> Arc<Mutex<KeptMeshes>> {
+        lock(&self.all).get(name).map(|entry| Arc::clone(&entry.meshes)).unwrap_or_default()
     }
 
     /// Ends a client's use of a model; whether it used it.

@@ -25,7 +25,8 @@ All clients share the models, so that two programs can show one.
   are ready.
 - `$/progress` comes at most ten times a second for a request: `id`, `stage` (`blade`, `build`, `measure`, `tessellate`,
   `export`) and `fraction` of the whole.
-- `$/cancelRequest` with the `id` of a request asks it to stop; its reply is then error -32800, unless it was ready before.
+- `$/cancelRequest` with the `id` of a request asks it to stop; its reply is then error -32800, within a tenth of a second,
+  unless it was ready before.
 - `shutdown` is replied to and ends the server. So does the end of standard input, even while requests run, and the death
   of the parent process; with `--detached` standard input is left alone. Files are complete or not there at all.
 

@@ -152,9 +152,16 @@ impl Session {
     fn notified(&self, call: &Call) {
         if call.method == "$/cancelRequest"
             && let Some(id) = call.params.get("id")
-            && let Some(task) = lock(&self.running).get(&id.to_string())
         {
+            let mut running = lock(&self.running);
+            let Some(task) = running.get(&id.to_string()).cloned() else { return };
             task.cancel();
+            // One that still waits for a worker need not wait for it any longer.
+            if task.take() {
+                running.remove(&id.to_string());
+                drop(running);
+                self.outbox.send(&rpc::reply(id, Err(RpcError::cancelled())));
+            }
         }
     }
 
@@ -171,6 +178,9 @@ impl Session {
         let (server, client, outbox) = (Arc::clone(&self.server), self.client, self.outbox.clone());
         let running = Arc::clone(&self.running);
         let job = move || {
+            if !task.take() {
+                return;
+            }
             let result = run(&server, client, &task, method, params);
             // The id is free before the client can know.
             lock(&running).remove(&task.id().to_string());

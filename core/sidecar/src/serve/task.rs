@@ -17,12 +17,20 @@ pub(super) struct Task {
     id: Value,
     outbox: Outbox,
     cancelled: AtomicBool,
+    /// Taken by the worker that does it, or by who cancels it before: the reply is for that one to send.
+    taken: AtomicBool,
     told: Mutex<Option<Instant>>,
 }
 
 impl Task {
     pub(super) fn new(id: Value, outbox: Outbox) -> Self {
-        Self { id, outbox, cancelled: AtomicBool::new(false), told: Mutex::new(None) }
+        Self {
+            id,
+            outbox,
+            cancelled: AtomicBool::new(false),
+            taken: AtomicBool::new(false),
+            told: Mutex::new(None),
+        }
     }
 
     pub(super) fn id(&self) -> &Value {
@@ -32,6 +40,11 @@ impl Task {
     /// Asks it to stop.
     pub(super) fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// Takes it; whether nobody has before.
+    pub(super) fn take(&self) -> bool {
+        !self.taken.swap(true, Ordering::Relaxed)
     }
 
     /// An error once it has been asked to stop.

@@ -30,25 +30,32 @@ pub struct PropellerSource {
     /// Trace of the trailing edge, from the hub to the same tip, which it reaches across the streamline.
     pub trailing_edge: ContourSpec,
     /// Machine angle theta of the leading edge, degrees, -3600 to 3600.
+    #[schemars(title = "Theta of the leading edge", extend("unit" = "deg", "minimum" = -3600.0, "maximum" = 3600.0))]
     pub phi0_deg: LawSpec,
     /// Machine angle theta of the trailing edge, degrees; at v = 1 that of the leading edge.
+    #[schemars(title = "Theta of the trailing edge", extend("unit" = "deg", "minimum" = -3600.0, "maximum" = 3600.0))]
     pub phi1_deg: LawSpec,
     /// Angle of the streamlines at the leading edge, measured on the stream surface from the circle in the direction
     /// of growing theta, degrees, 2 to 178.
+    #[schemars(title = "Angle at the leading edge", extend("unit" = "deg", "minimum" = 2.0, "maximum" = 178.0))]
     pub beta0_deg: LawSpec,
     /// The same at the trailing edge.
+    #[schemars(title = "Angle at the trailing edge", extend("unit" = "deg", "minimum" = 2.0, "maximum" = 178.0))]
     pub beta1_deg: LawSpec,
     /// How long the direction at the leading edge is kept: length of the first leg of the control polygon over the
     /// distance of its ends (in the conformal chart), 0.02 to 1.
     #[serde(default = "third")]
+    #[schemars(title = "Leg at the leading edge", extend("unit" = "fraction of the chord", "minimum" = 0.02, "maximum" = 1.0))]
     pub zeta0: LawSpec,
     /// The same at the trailing edge.
     #[serde(default = "third")]
+    #[schemars(title = "Leg at the trailing edge", extend("unit" = "fraction of the chord", "minimum" = 0.02, "maximum" = 1.0))]
     pub zeta1: LawSpec,
     /// Thickness along the streamlines.
     #[serde(default)]
     pub profile: ProfileSpec,
     /// Scale of the profile, mm, positive but for v = 1, where it is zero.
+    #[schemars(extend("unit" = "mm", "minimum" = 0.0))]
     pub thickness: LawSpec,
     /// How the trailing edge is closed: sharp if the profile ends with y = 0, else blunt, unless said otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]

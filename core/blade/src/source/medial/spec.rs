@@ -39,6 +39,7 @@ pub struct SideSpec {
     pub profile: Option<ProfileSpec>,
     /// Its scale, mm, positive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("unit" = "mm", "exclusiveMinimum" = 0.0))]
     pub thickness: Option<LawSpec>,
 }
 
@@ -69,6 +70,7 @@ pub struct SkinSpec {
     pub knots: KnotsSpec,
     /// Greatest distance from the sides, mm, 1e-5 to 1, if `control_points` are not given.
     #[serde(default = "close")]
+    #[schemars(extend("unit" = "mm", "minimum" = 1e-05, "maximum" = 1.0))]
     pub tolerance: f64,
 }
 

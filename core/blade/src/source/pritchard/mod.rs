@@ -24,33 +24,45 @@ pub struct PritchardSource {
     /// Radius of the cylinder the section is drawn on, mm; the radius of the stream surface at the blade if not given.
     /// A linear cascade needs it for its pitch, 2 pi radius / blade_count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("unit" = "mm", "exclusiveMinimum" = 0.0))]
     pub radius: Option<LawSpec>,
     /// Extent along the axis, mm, positive.
+    #[schemars(extend("unit" = "mm", "exclusiveMinimum" = 0.0))]
     pub axial_chord: LawSpec,
     /// Tangential distance of leading and trailing edge (the centres of their circles), mm; may be negative.
+    #[schemars(extend("unit" = "mm"))]
     pub tangential_chord: LawSpec,
     /// Turning of the suction side between throat and trailing edge, degrees, 0 to 60.
+    #[schemars(extend("unit" = "deg", "minimum" = 0.0, "maximum" = 60.0))]
     pub unguided_turning_deg: LawSpec,
     /// Blade angle at the inlet, from the axis, degrees, between -80 and 80.
+    #[schemars(extend("unit" = "deg", "minimum" = -80.0, "maximum" = 80.0))]
     pub inlet_angle_deg: LawSpec,
     /// Half of the wedge angle at the inlet, degrees, 0 to 60.
+    #[schemars(extend("unit" = "deg", "minimum" = 0.0, "maximum" = 60.0))]
     pub inlet_half_wedge_deg: LawSpec,
     /// Radius of the leading edge, mm, positive.
+    #[schemars(extend("unit" = "mm", "exclusiveMinimum" = 0.0))]
     pub leading_edge_radius: LawSpec,
     /// Blade angle at the exit, from the axis, degrees, between -85 and 85; negative where the blade turns the flow
     /// down from the inlet angle.
+    #[schemars(extend("unit" = "deg", "minimum" = -85.0, "maximum" = 85.0))]
     pub exit_angle_deg: LawSpec,
     /// Radius of the trailing edge, mm, positive.
+    #[schemars(extend("unit" = "mm", "exclusiveMinimum" = 0.0))]
     pub trailing_edge_radius: LawSpec,
     /// Number of blades around the machine, at least 2.
     pub blade_count: u32,
     /// Width of the throat, mm, positive and less than the pitch.
+    #[schemars(extend("unit" = "mm", "exclusiveMinimum" = 0.0))]
     pub throat: LawSpec,
     /// Axial position of the stacking point, mm.
     #[serde(default = "zero")]
+    #[schemars(title = "Axial position", extend("unit" = "mm"))]
     pub x: LawSpec,
     /// Tangential position of the stacking point, radius times angle (y in a linear cascade), mm.
     #[serde(default = "zero")]
+    #[schemars(title = "Tangential position", extend("unit" = "mm"))]
     pub r_theta: LawSpec,
     /// What stands at (`x`, `r_theta`).
     #[serde(default)]

@@ -26,6 +26,7 @@ pub struct SectionsSource {
     /// edges given by points of an arc become exact arcs, and noise of measured or rounded points is smoothed away
     /// where that pays. 0 passes through every point.
     #[serde(default = "default_tolerance")]
+    #[schemars(extend("unit" = "mm", "minimum" = 0.0, "maximum" = 0.1))]
     pub tolerance: f64,
 }
 
@@ -41,10 +42,12 @@ fn default_tolerance() -> f64 {
 pub struct SectionSpec {
     /// Span fraction of the stream surface the points lie on, -0.15 to 1.15.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("unit" = "span fraction", "minimum" = -0.15, "maximum" = 1.15))]
     pub span: Option<f64>,
     /// Instead of `span`: z of the plane the points (x, y) lie in, mm. In an annulus the blade is then cut by the
     /// stream surfaces.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("unit" = "mm"))]
     pub z: Option<f64>,
     /// Points around the whole section; the last may repeat the first.
     #[serde(default, skip_serializing_if = "Option::is_none")]

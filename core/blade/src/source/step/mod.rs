@@ -28,6 +28,7 @@ pub struct StepSource {
     pub faces: Option<Vec<String>>,
     /// How far apart borders of neighbouring surfaces may lie, mm.
     #[serde(default = "default_tolerance")]
+    #[schemars(extend("unit" = "mm"))]
     pub tolerance: f64,
     /// Where the edges are in the parameter around the blade of a single surface; found if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -9,7 +9,8 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
 /// What feeds a hole, and the hole's shape between there and the outer surface.
-pub(super) struct Feed {
+#[derive(Clone, Debug)]
+pub(in super::super) struct Feed {
     /// Index of the passage.
     pub(super) passage: usize,
     pub(super) mouth: Mouth,

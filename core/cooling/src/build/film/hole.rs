@@ -5,6 +5,7 @@ use crate::bore::{BoreShape, Frame, circle, rounded_rectangle, stretched_circle}
 use crate::design::HoleShape;
 use crate::plan::FilmRowPlan;
 use coolinggen_blade::Fault;
+use coolinggen_brep::Key;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
@@ -45,6 +46,25 @@ impl Hole<'_> {
     /// What messages call it.
     pub(super) fn label(&self) -> String {
         format!("hole {} of film row \"{}\"", self.number, self.row.name)
+    }
+
+    /// Everything that what feeds it depends on, besides the passages.
+    pub(super) fn key(&self) -> Key {
+        let at = &self.at;
+        let angles = (self.angles_deg[0], self.angles_deg[1]);
+        let key = Key::of((at.point, at.downstream, at.spanwise)).and((self.axis, self.radius, angles));
+        let key = match self.row.shape {
+            HoleShape::Cylindrical => key.and(0_usize),
+            HoleShape::Conical { expansion_deg } => key.and((1_usize, expansion_deg)),
+            HoleShape::Shaped {
+                metering_length_d: metering,
+                lateral_expansion_deg: lateral,
+                forward_expansion_deg: forward,
+                corner_radius_d: corner,
+            } => key.and((2_usize, metering)).and((lateral, forward, corner)),
+            HoleShape::Racetrack { width_d } => key.and((3_usize, width_d)),
+        };
+        key.and(self.row.chamber.as_deref())
     }
 
     pub(super) fn fault(&self, code: &'static str, what: impl std::fmt::Display) -> Fault {

@@ -9,13 +9,15 @@ use super::blank::Blank;
 use super::error::BuildError;
 use super::sides::Sides;
 use super::style;
-use crate::bore::{BoreNames, Drill, Mouth};
+use crate::bore::{BoreNames, Mouth};
 use crate::plan::FilmRowPlan;
 use coolinggen_blade::Fault;
 use coolinggen_brep::{Caster, FaceId};
-use feed::{Feed, feed};
+pub(super) use feed::Feed;
+use feed::feed;
 use glam::DVec3;
 use hole::{Hole, holes};
+use std::sync::Arc;
 
 /// A film hole as built.
 #[derive(Clone, Debug)]
@@ -55,14 +57,14 @@ pub(super) fn add_film_rows(
     if rows.is_empty() {
         return Ok(Vec::new());
     }
-    let passage_faces = blank.passages.iter().flat_map(|p| p.faces.iter().copied());
-    let caster = Caster::new(blank.model, passage_faces);
+    let caster = blank.passage_caster();
     let mut faults = Vec::new();
     let mut planned = Vec::new();
     for (k, row) in rows.iter().enumerate() {
         let pointer = format!("/cooling/film_rows/{k}");
         for hole in holes(sides, row, &pointer) {
-            match feed(blank, &caster, &hole) {
+            blank.watch.go_on()?;
+            match known_feed(blank, &caster, &hole) {
                 Ok(feed) => planned.push((hole, feed)),
                 Err(fault) => faults.push(fault),
             }
@@ -76,10 +78,10 @@ pub(super) fn add_film_rows(
     if !faults.is_empty() {
         return Err(BuildError::Refused(faults));
     }
-    let mut drill = Drill::default();
     let mut drilled = Vec::with_capacity(planned.len());
     for ((hole, feed), ligament) in planned.iter().zip(ligaments) {
-        match drill_hole(blank, &mut drill, hole, feed, ligament) {
+        blank.watch.go_on()?;
+        match drill_hole(blank, hole, feed, ligament) {
             Ok(made) => drilled.push(made),
             Err(fault) => faults.push(fault),
         }
@@ -87,9 +89,19 @@ pub(super) fn add_film_rows(
     if faults.is_empty() { Ok(drilled) } else { Err(BuildError::Refused(faults)) }
 }
 
+/// What feeds a hole, now or before.
+fn known_feed(blank: &mut Blank<'_>, caster: &Caster, hole: &Hole<'_>) -> Result<Arc<Feed>, Fault> {
+    let key = hole.key();
+    if let Some(known) = blank.kept.feeds.find(&key) {
+        return Ok(known);
+    }
+    let found = Arc::new(feed(blank, caster, hole)?);
+    blank.kept.feeds.keep(key, Arc::clone(&found));
+    Ok(found)
+}
+
 fn drill_hole(
     blank: &mut Blank<'_>,
-    drill: &mut Drill,
     hole: &Hole<'_>,
     feed: &Feed,
     ligament: Option<f64>,
@@ -106,7 +118,7 @@ fn drill_hole(
     let style = style::film();
     let names = BoreNames { path: &path, stages, style: &style };
     let exits = blank
-        .bore_out(drill, &feed.shape, feed.passage, [feed.mouth, outer], &names)
+        .bore_out(&feed.shape, feed.passage, [feed.mouth, outer], &names)
         .map_err(|error| hole.fault(error.code(), error))?;
     Ok(FilmHoleGeometry {
         row: hole.row.name.clone(),

@@ -1,5 +1,6 @@
 //! Holes in a flat wall, against closed forms.
 
+use super::super::blank::Parts;
 use super::super::sides::SurfacePoint;
 use super::hole::Hole;
 use crate::bore::{BoreNames, Drill, Mouth};
@@ -80,7 +81,8 @@ fn drilled(shape: HoleShape, length: f64) -> (Model, Face, f64, f64) {
         (&[upper][..], Mouth { face: upper, at: DVec2::new(0.5, 0.5), z: 0.0 }),
     ];
     let names = BoreNames { path: "film/test/001", stages: &["metering", "diffuser"], style: &style() };
-    let bored = Drill::default().bore(&mut model, &shape, mouths, &names, &mut |_| Ok(())).unwrap();
+    let bored =
+        Drill::default().bore(&mut model, &shape, mouths, &names, &Parts::of(0), &mut |_| Ok(())).unwrap();
     let [_, upper] = bored.imprints;
     let (parent, border) = upper.inside.into_iter().next().unwrap();
     let exit = Face { loops: vec![border], ..model.face(parent).clone() };

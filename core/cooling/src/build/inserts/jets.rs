@@ -6,7 +6,7 @@ use super::super::error::BuildError;
 use super::super::ligaments::Ligaments;
 use super::super::style;
 use super::Insert;
-use crate::bore::{BoreNames, BoreShape, Drill, Frame, Hull, Mouth, circle};
+use crate::bore::{BoreNames, BoreShape, Frame, Hull, Mouth, circle};
 use crate::design::InsertSide;
 use crate::plan::{InsertPlan, JetArrayPlan};
 use coolinggen_blade::Fault;
@@ -58,7 +58,6 @@ pub(in super::super) fn add_jets(
     plans: &[InsertPlan],
 ) -> Result<Vec<JetGeometry>, BuildError> {
     let (mut made, mut faults) = (Vec::new(), Vec::new());
-    let mut drill = Drill::default();
     for (index, plan) in plans.iter().enumerate().filter(|(_, plan)| !plan.jets.is_empty()) {
         let pointers: Vec<String> =
             (0..plan.jets.len()).map(|i| format!("{}/jets/{i}", plan.pointer())).collect();
@@ -78,8 +77,9 @@ pub(in super::super) fn add_jets(
         }
         let name = insert.name.clone();
         for jet in &jets {
+            blank.watch.go_on()?;
             let target = target(blank.model, &targets, jet);
-            match jet.bore(blank, &mut drill, index, &name) {
+            match jet.bore(blank, index, &name) {
                 Ok(()) => made.push(jet.geometry(&name, target)),
                 Err(fault) => faults.push(fault),
             }
@@ -241,7 +241,7 @@ impl Jet<'_> {
         Fault::new(self.pointer, code, message)
     }
 
-    fn bore(&self, blank: &mut Blank<'_>, drill: &mut Drill, insert: usize, name: &str) -> Result<(), Fault> {
+    fn bore(&self, blank: &mut Blank<'_>, insert: usize, name: &str) -> Result<(), Fault> {
         let length = -self.inner.z;
         let frame = Frame::along(self.point, self.axis, self.up);
         let shape = BoreShape::straight(frame, circle(-length, 0.5 * self.array.diameter), length);
@@ -249,7 +249,7 @@ impl Jet<'_> {
         let style = style::jet();
         let names = BoreNames { path: &path, stages: &["bore"], style: &style };
         blank
-            .bore_jet(drill, &shape, insert, [self.inner, self.exit], &names)
+            .bore_jet(&shape, insert, [self.inner, self.exit], &names)
             .map_err(|error| self.fault(error.code(), error))
     }
 

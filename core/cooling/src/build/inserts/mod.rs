@@ -15,6 +15,7 @@ use super::stack::Stack;
 use super::style;
 use super::tube::CutTube;
 use crate::plan::{InsertPlan, Plan, ShellPlan};
+use crate::watch::Watch;
 use coolinggen_blade::{Blade, Fault, StreamSpace};
 use coolinggen_brep::{FaceId, Model};
 pub use jets::JetGeometry;
@@ -77,6 +78,7 @@ pub(super) struct InsertSite<'a> {
     pub(super) plan: &'a Plan,
     pub(super) shell: &'a ShellPlan,
     pub(super) stack: &'a Stack,
+    pub(super) watch: &'a dyn Watch,
 }
 
 /// Adds the faces of all inserts; each gains a passage, its plenum, and leaves its mark on the passage round it.

@@ -182,7 +182,7 @@ fn sheet_wall(
     let k = insert.chamber;
     // Only the leading chamber has a nose.
     let front = (k == 0).then_some(span);
-    let stack = Stack::through(site.blade, site.grid, sections, spans, &plan, &shell, front)?;
+    let stack = Stack::through(site.blade, site.grid, sections, spans, &plan, &shell, front, site.watch)?;
     let mut rings = Vec::with_capacity(stack.sections.len());
     let mut faults = Vec::new();
     for (i, section) in stack.sections.iter().enumerate() {

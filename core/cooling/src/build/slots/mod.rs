@@ -7,12 +7,12 @@ mod walls;
 use super::blank::Blank;
 use super::error::BuildError;
 use super::sections::{Section, over_span};
-use crate::bore::Drill;
 use crate::plan::SlotRowPlan;
 use coolinggen_blade::{Fault, Region};
-use coolinggen_brep::{Caster, FaceId};
+use coolinggen_brep::FaceId;
 use coolinggen_nurbs::{Curve, ParametricCurve};
 use glam::DVec3;
+pub(super) use slot::PlannedSlot;
 use slot::Slot;
 use walls::Surroundings;
 
@@ -85,11 +85,10 @@ pub(super) fn add_slot_rows(
     }
     let edge = TrailingEdge::new(sections, tails)?;
     let around = Surroundings {
-        passages: Caster::new(blank.model, blank.passages.iter().flat_map(|p| p.faces.iter().copied())),
-        outer: Caster::new(blank.model, blank.outer.iter().copied()),
+        passages: blank.passage_caster(),
+        outer: blank.caster(&blank.outer.clone()),
         sides: [Region::SuctionSide, Region::PressureSide].map(|side| blank.outer_caster(side)),
     };
-    let mut drill = Drill::default();
     let (mut made, mut faults) = (Vec::new(), Vec::new());
     for (k, row) in rows.iter().enumerate() {
         let ends = row.span.map(|v| edge.edge.point(v));
@@ -108,9 +107,10 @@ pub(super) fn add_slot_rows(
             continue;
         }
         for i in 0..count {
+            blank.watch.go_on()?;
             let v = row.span[0] + (row.span[1] - row.span[0]) * (i as f64 + 0.5) / count as f64;
             let slot = Slot { row, pointer: &pointer, number: i + 1, frame: edge.frame(v), land, least };
-            match slot.drill(blank, &around, &mut drill) {
+            match slot.drill(blank, &around) {
                 Ok(slot) => made.push(slot),
                 Err(fault) => faults.push(fault),
             }

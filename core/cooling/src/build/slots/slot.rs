@@ -4,11 +4,12 @@ use super::super::blank::Blank;
 use super::super::style;
 use super::SlotGeometry;
 use super::walls::{Beside, LipRefusal, Surroundings, runs_into};
-use crate::bore::{BoreNames, BoreShape, Drill, Frame, Mouth, fanned, rounded_rectangle};
+use crate::bore::{BoreNames, BoreShape, Frame, Mouth, fanned, rounded_rectangle};
 use crate::plan::SlotRowPlan;
 use coolinggen_blade::Fault;
-use coolinggen_brep::CastHit;
+use coolinggen_brep::{CastHit, Key};
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// A slot to be drilled.
 pub(super) struct Slot<'p> {
@@ -23,6 +24,20 @@ pub(super) struct Slot<'p> {
     pub(super) least: f64,
 }
 
+/// A slot that fits.
+#[derive(Clone, Debug)]
+pub(in super::super) struct PlannedSlot {
+    /// Index of the passage.
+    passage: usize,
+    mouths: [Mouth; 2],
+    shape: BoreShape,
+    /// Where on the axis the lip is, if the pressure side is cut back.
+    lip: Option<f64>,
+    side_walls: [Option<f64>; 2],
+    exit: DVec3,
+    length: f64,
+}
+
 impl Slot<'_> {
     fn fault(&self, field: &str, code: &'static str, what: impl std::fmt::Display) -> Fault {
         let message = format!("slot {} of row \"{}\" {what}", self.number, self.row.name);
@@ -30,12 +45,47 @@ impl Slot<'_> {
     }
 
     /// Drills the slot.
-    pub(super) fn drill(
-        &self,
-        blank: &mut Blank<'_>,
-        around: &Surroundings,
-        drill: &mut Drill,
-    ) -> Result<SlotGeometry, Fault> {
+    pub(super) fn drill(&self, blank: &mut Blank<'_>, around: &Surroundings) -> Result<SlotGeometry, Fault> {
+        let key = self.key();
+        let planned = match blank.kept.slots.find(&key) {
+            Some(known) => known,
+            None => {
+                let planned = Arc::new(self.planned(blank, around)?);
+                blank.kept.slots.keep(key, Arc::clone(&planned));
+                planned
+            }
+        };
+        let PlannedSlot { passage, mouths, shape, lip, side_walls, exit, length } = &*planned;
+        let path = format!("slot/{}/{:03}", self.row.name, self.number);
+        let style = style::slot();
+        let names = BoreNames { path: &path, stages: &["bore", "cutback"], style: &style };
+        let exits = blank
+            .bore_out(shape, *passage, *mouths, &names)
+            .map_err(|error| self.fault("", error.code(), error))?;
+        Ok(SlotGeometry {
+            row: self.row.name.clone(),
+            number: self.number,
+            passage: blank.passages[*passage].name.clone(),
+            exit: *exit,
+            axis: self.frame.1,
+            size: [self.row.height, self.row.width],
+            length: *length,
+            land: self.land,
+            side_walls: *side_walls,
+            open_length: lip.map(|z| -z),
+            exits,
+        })
+    }
+
+    /// Everything that it depends on before it is drilled, besides the surfaces around.
+    fn key(&self) -> Key {
+        let row = self.row;
+        let cutback = row.cutback.map(|cutback| (cutback.lip_thickness, cutback.lip_angle_deg));
+        Key::of(self.frame).and((row.height, row.width, row.corner_radius)).and((cutback, self.least))
+    }
+
+    /// Where the slot runs, and whether it fits.
+    fn planned(&self, blank: &Blank<'_>, around: &Surroundings) -> Result<PlannedSlot, Fault> {
         let (edge, axis, up) = self.frame;
         let passage_of = |hit: &CastHit| blank.passages.iter().position(|p| p.faces.contains(&hit.face));
         let none = || self.fault("", "reaches_no_chamber", "reaches no chamber along its axis");
@@ -62,25 +112,7 @@ impl Slot<'_> {
             Mouth { face: inner.face, at: inner.at, z: -length },
             Mouth { face: outer.face, at: outer.at, z: 0.0 },
         ];
-        let path = format!("slot/{}/{:03}", self.row.name, self.number);
-        let style = style::slot();
-        let names = BoreNames { path: &path, stages: &["bore", "cutback"], style: &style };
-        let exits = blank
-            .bore_out(drill, &shape, passage, mouths, &names)
-            .map_err(|error| self.fault("", error.code(), error))?;
-        Ok(SlotGeometry {
-            row: self.row.name.clone(),
-            number: self.number,
-            passage: blank.passages[passage].name.clone(),
-            exit,
-            axis,
-            size: [self.row.height, self.row.width],
-            length,
-            land: self.land,
-            side_walls,
-            open_length: lip.map(|z| -z),
-            exits,
-        })
+        Ok(PlannedSlot { passage, mouths, shape, lip, side_walls, exit, length })
     }
 
     /// The slot's shape, and where on the axis the lip is if the pressure side is cut back: from there on the slot's

@@ -4,21 +4,22 @@ use crate::bore::Frame;
 use coolinggen_brep::{CastHit, Caster, Model};
 use coolinggen_nurbs::line_meets_surface;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// What a slot may meet.
 pub(super) struct Surroundings {
     /// The passages.
-    pub(super) passages: Caster,
+    pub(super) passages: Arc<Caster>,
     /// The outer surface.
-    pub(super) outer: Caster,
+    pub(super) outer: Arc<Caster>,
     /// Its suction side and its pressure side.
-    pub(super) sides: [Caster; 2],
+    pub(super) sides: [Arc<Caster>; 2],
 }
 
 /// The metal between a slot and the blade's sides. The frame's x points to the suction side, its origin lies at the exit.
 pub(super) struct Beside<'a> {
     pub(super) model: &'a Model,
-    pub(super) sides: &'a [Caster; 2],
+    pub(super) sides: &'a [Arc<Caster>; 2],
     pub(super) frame: Frame,
     /// Half the width and half the height.
     pub(super) half: DVec2,

@@ -23,6 +23,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct PropellerTableSource {
     /// Diameter D = 2 R, mm, positive.
+    #[schemars(extend("unit" = "mm", "exclusiveMinimum" = 0.0))]
     pub diameter: f64,
     /// The way it turns, seen from behind (from larger x).
     #[serde(default)]
@@ -37,9 +38,11 @@ pub struct PropellerTableSource {
     pub mean_line: MeanLine,
     /// Axial position of the generator line, mm.
     #[serde(default)]
+    #[schemars(title = "Axial position", extend("unit" = "mm"))]
     pub x: f64,
     /// Machine angle theta of the generator line, degrees.
     #[serde(default)]
+    #[schemars(title = "Theta", extend("unit" = "deg"))]
     pub phi_deg: f64,
     /// How the trailing edge is closed: blunt, unless the thickness form is closed, or said otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -54,21 +57,28 @@ pub struct PropellerTableSource {
 #[serde(deny_unknown_fields)]
 pub struct PropellerRow {
     /// Radius over the tip radius, r/R, over 0 and up to 1.
+    #[schemars(extend("unit" = "tip radii", "exclusiveMinimum" = 0.0))]
     pub radius_r: f64,
     /// Chord over the diameter, c/D.
+    #[schemars(extend("unit" = "diameters"))]
     pub chord_d: f64,
     /// Pitch over the diameter, P/D, positive.
+    #[schemars(extend("unit" = "diameters", "exclusiveMinimum" = 0.0))]
     pub pitch_d: f64,
     /// Skew angle of the middle of the chord, along the pitch helix towards the trailing edge, degrees.
     #[serde(default)]
+    #[schemars(extend("unit" = "deg"))]
     pub skew_deg: f64,
     /// Rake over the diameter, towards larger x.
     #[serde(default)]
+    #[schemars(extend("unit" = "diameters"))]
     pub rake_d: f64,
     /// Greatest camber over the chord, f/c.
     #[serde(default)]
+    #[schemars(extend("unit" = "chords"))]
     pub camber_c: f64,
     /// Greatest thickness over the chord, t/c, positive.
+    #[schemars(extend("unit" = "chords", "exclusiveMinimum" = 0.0))]
     pub thickness_c: f64,
 }
 

@@ -29,26 +29,33 @@ pub struct TurbineSource {
     /// Trace of the trailing edge, from hub to shroud.
     pub trailing_edge: ContourSpec,
     /// Machine angle theta of the leading edge, degrees, -3600 to 3600.
+    #[schemars(title = "Theta of the leading edge", extend("unit" = "deg", "minimum" = -3600.0, "maximum" = 3600.0))]
     pub phi0_deg: LawSpec,
     /// Machine angle theta of the trailing edge, degrees, -3600 to 3600.
+    #[schemars(title = "Theta of the trailing edge", extend("unit" = "deg", "minimum" = -3600.0, "maximum" = 3600.0))]
     pub phi1_deg: LawSpec,
     /// Angle of the streamlines at the leading edge, measured on the stream surface from the circle in the direction
     /// of growing theta, degrees, 2 to 178; over 90 the streamline runs against theta.
+    #[schemars(title = "Angle at the leading edge", extend("unit" = "deg", "minimum" = 2.0, "maximum" = 178.0))]
     pub beta0_deg: LawSpec,
     /// The same at the trailing edge.
+    #[schemars(title = "Angle at the trailing edge", extend("unit" = "deg", "minimum" = 2.0, "maximum" = 178.0))]
     pub beta1_deg: LawSpec,
     /// How long the direction at the leading edge is kept: length of the first leg of the control polygon over the
     /// distance of its ends (in the conformal chart), 0.02 to 1.
     #[serde(default = "third")]
+    #[schemars(title = "Leg at the leading edge", extend("unit" = "fraction of the chord", "minimum" = 0.02, "maximum" = 1.0))]
     pub zeta0: LawSpec,
     /// The same at the trailing edge.
     #[serde(default = "third")]
+    #[schemars(title = "Leg at the trailing edge", extend("unit" = "fraction of the chord", "minimum" = 0.02, "maximum" = 1.0))]
     pub zeta1: LawSpec,
     /// Thickness along the streamlines.
     #[serde(default)]
     pub profile: ProfileSpec,
     /// Scale of the profile, mm, positive: each side stands `thickness` times the profile's y off the medial surface.
     /// For profiles that reach y = 0.5 it is the greatest thickness of the blade.
+    #[schemars(extend("unit" = "mm", "exclusiveMinimum" = 0.0))]
     pub thickness: LawSpec,
     /// Another profile or thickness for the pressure side alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]

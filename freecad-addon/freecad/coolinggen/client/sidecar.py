@@ -15,6 +15,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 PROTOCOL_VERSION = 1
+STARTING_S = 20.0  #: A program that has not introduced itself after so many seconds is none of ours.
 NAME = "coolinggen.exe" if os.name == "nt" else "coolinggen"
 
 
@@ -43,13 +44,14 @@ class RefusedError(SidecarError):
 
 
 def find(preferred: str = "") -> Path:
-    """The sidecar's binary: the preferred one, the one beside this file, or the one on the path."""
+    """The sidecar's binary: the preferred one, the one in the add-on's folder, or the one on the path."""
     if preferred:
         if not Path(preferred).is_file():
             raise MissingError(f"there is no coolinggen at {preferred}: look at the preferences")
         return Path(preferred)
-    bundled = Path(__file__).parent / "bin" / NAME
+    bundled = Path(__file__).parent.parent / "bin" / NAME
     if bundled.is_file():
+        _executable(bundled)
         return bundled
     found = shutil.which(NAME)
     if found is None:
@@ -57,6 +59,14 @@ def find(preferred: str = "") -> Path:
             "coolinggen is neither beside the add-on nor on the PATH: say in the preferences where it is"
         )
     return Path(found)
+
+
+def _executable(program: Path) -> None:
+    """Gives a program the permission to run that unpacking may have taken from it."""
+    if not os.access(program, os.X_OK):
+        # Where it can't be had, starting the program says so.
+        with contextlib.suppress(OSError):
+            program.chmod(program.stat().st_mode | 0o755)
 
 
 class Sidecar:
@@ -78,12 +88,20 @@ class Sidecar:
         self._ids = itertools.count(1)
         self._waiting: dict[int, queue.Queue] = {}
         self._lock = threading.Lock()
+        # Apart from the other: who writes a long line must not keep the reader from the answers.
+        self._writing = threading.Lock()
         threading.Thread(target=self._read, daemon=True).start()
+        impatience = threading.Timer(STARTING_S, self._process.kill)
+        impatience.start()
         try:
             self.server = self.call("initialize", protocol_version=PROTOCOL_VERSION, client={"name": client})
         except SidecarError as error:
             self.close()
-            raise MissingError(f"{binary} is no sidecar for this add-on: {error}") from error
+            raise MissingError(
+                f"{binary} is no sidecar for this add-on, or too old or too new for it: {error}"
+            ) from error
+        finally:
+            impatience.cancel()
 
     @property
     def alive(self) -> bool:
@@ -139,7 +157,7 @@ class Sidecar:
     def _send(self, message: dict) -> None:
         line = json.dumps({"jsonrpc": "2.0", **message}, allow_nan=False)
         try:
-            with self._lock:
+            with self._writing:
                 self._process.stdin.write(line + "\n")
                 self._process.stdin.flush()
         except (OSError, ValueError) as error:
@@ -165,7 +183,7 @@ class Sidecar:
 
     def close(self) -> None:
         """Ends it."""
-        with self._lock:
+        with self._writing:
             if not self._process.stdin.closed:
                 # It may be dead already.
                 with contextlib.suppress(OSError):

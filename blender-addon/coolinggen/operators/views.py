@@ -1,0 +1,58 @@
+"""Ways to look inside a blade, and to have a picture of it."""
+
+import math
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, IntProperty
+from mathutils import Vector
+
+from .. import blades, views
+
+
+class Look(bpy.types.Operator):
+    """Shows the active blade whole, cut open, with glassy metal, or its coolant alone"""
+
+    bl_idname = "coolinggen.look"
+    bl_label = "Look"
+    bl_options = {"REGISTER", "UNDO"}
+
+    look: EnumProperty(name="Look", items=views.LOOKS)
+
+    @classmethod
+    def poll(cls, context):
+        return blades.active(context) is not None
+
+    def execute(self, context):
+        views.show(blades.active(context), self.look)
+        return {"FINISHED"}
+
+
+class Turntable(bpy.types.Operator):
+    """A camera that goes once round the active blade, and lights"""
+
+    bl_idname = "coolinggen.turntable"
+    bl_label = "Turntable"
+    bl_options = {"REGISTER", "UNDO"}
+
+    frames: IntProperty(name="Frames", default=120, min=2)
+    elevation: FloatProperty(name="Elevation", subtype="ANGLE", default=math.radians(20))
+
+    @classmethod
+    def poll(cls, context):
+        collection = blades.active(context)
+        return collection is not None and bool(blades.objects(collection))
+
+    def execute(self, context):
+        collection = blades.active(context)
+        corners = [
+            found.matrix_world @ Vector(corner)
+            for found in blades.objects(collection).values()
+            for corner in found.bound_box
+        ]
+        low = Vector(map(min, zip(*corners, strict=True)))
+        high = Vector(map(max, zip(*corners, strict=True)))
+        views.turntable(context.scene, (low + high) / 2, (high - low).length / 2, self.frames, self.elevation)
+        return {"FINISHED"}
+
+
+CLASSES = [Look, Turntable]

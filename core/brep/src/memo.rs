@@ -1,0 +1,293 @@
+//! What was made, kept by everything it was made from: for models that are built again with a little changed.
+
+use crate::geometry::{EdgeCurve, SurfaceGeometry};
+use crate::model::Coedge;
+use coolinggen_nurbs::{Curve, Homogeneous, Knots, Surface, VectorSpace};
+use glam::{DVec2, DVec3};
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// Everything that something was made from, bit by bit: what has an equal key is equal.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Key(Vec<u64>);
+
+/// What a [`Key`] can hold.
+pub trait Content {
+    /// Adds it to the key.
+    fn write(&self, key: &mut Key);
+}
+
+impl Key {
+    /// The key of one thing, or of a tuple of things.
+    pub fn of(content: impl Content) -> Self {
+        Self::default().and(content)
+    }
+
+    /// This key and more.
+    #[must_use]
+    pub fn and(mut self, content: impl Content) -> Self {
+        content.write(&mut self);
+        self
+    }
+}
+
+/// Hashes keys: they are long, and nobody makes them collide on purpose.
+#[derive(Clone, Copy, Debug, Default)]
+struct Mixer(u64);
+
+impl Hasher for Mixer {
+    fn write(&mut self, bytes: &[u8]) {
+        const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.0 = (self.0.rotate_left(23) ^ u64::from_le_bytes(word)).wrapping_mul(FACTOR);
+        }
+    }
+
+    fn finish(&self) -> u64 {
+        self.0 ^ (self.0 >> 29)
+    }
+}
+
+/// Results by their keys. Each build is a round; what no round has used for a while is forgotten.
+#[derive(Clone, Debug)]
+pub struct Memo<T> {
+    kept: HashMap<Key, (T, u64), BuildHasherDefault<Mixer>>,
+    round: u64,
+    /// Entries after the last round that came to an end.
+    settled: usize,
+    made: u64,
+}
+
+/// Rounds that a result outlives unused: going back and forth between designs costs nothing.
+const ROUNDS: u64 = 3;
+/// How much the rounds that were broken off may leave, relative to what one that came to its end left, and at least.
+const LEFT_OVER: (usize, usize) = (3, 1000);
+
+impl<T> Default for Memo<T> {
+    fn default() -> Self {
+        Self { kept: HashMap::default(), round: 0, settled: 0, made: 0 }
+    }
+}
+
+impl<T: Clone> Memo<T> {
+    /// What is kept under the key, or else is made now.
+    ///
+    /// # Errors
+    /// Those of `make`; nothing is kept then.
+    pub fn get<E>(&mut self, key: Key, make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
+        if let Some(found) = self.find(&key) {
+            return Ok(found);
+        }
+        let value = make()?;
+        self.keep(key, value.clone());
+        Ok(value)
+    }
+
+    /// What is kept under the key.
+    pub fn find(&mut self, key: &Key) -> Option<T> {
+        let (value, used) = self.kept.get_mut(key)?;
+        *used = self.round;
+        Some(value.clone())
+    }
+
+    /// Keeps what was made.
+    pub fn keep(&mut self, key: Key, value: T) {
+        self.made += 1;
+        self.kept.insert(key, (value, self.round));
+    }
+
+    /// Ends a round: one that came to its end, or one that was broken off, whose results serve the next.
+    pub fn end_round(&mut self, complete: bool) {
+        let most = (LEFT_OVER.0 * self.settled).max(LEFT_OVER.1);
+        if !complete {
+            if self.kept.len() > most {
+                self.kept.clear();
+            }
+            return;
+        }
+        self.round += 1;
+        let oldest = self.round.saturating_sub(ROUNDS);
+        self.kept.retain(|_, (_, used)| *used >= oldest);
+        self.settled = self.kept.len();
+    }
+
+    /// How many results have been made so far, and not found.
+    pub fn made(&self) -> u64 {
+        self.made
+    }
+}
+
+impl Content for u64 {
+    fn write(&self, key: &mut Key) {
+        key.0.push(*self);
+    }
+}
+
+impl Content for usize {
+    fn write(&self, key: &mut Key) {
+        key.0.push(*self as u64);
+    }
+}
+
+impl Content for bool {
+    fn write(&self, key: &mut Key) {
+        key.0.push(u64::from(*self));
+    }
+}
+
+impl Content for f64 {
+    fn write(&self, key: &mut Key) {
+        key.0.push(self.to_bits());
+    }
+}
+
+impl Content for DVec2 {
+    fn write(&self, key: &mut Key) {
+        self.to_array().map(f64::to_bits).iter().for_each(|bits| key.0.push(*bits));
+    }
+}
+
+impl Content for DVec3 {
+    fn write(&self, key: &mut Key) {
+        self.to_array().map(f64::to_bits).iter().for_each(|bits| key.0.push(*bits));
+    }
+}
+
+impl<V: VectorSpace + Content> Content for Homogeneous<V> {
+    fn write(&self, key: &mut Key) {
+        (self.weighted, self.weight).write(key);
+    }
+}
+
+impl Content for str {
+    fn write(&self, key: &mut Key) {
+        self.len().write(key);
+        key.0.extend(self.bytes().map(u64::from));
+    }
+}
+
+impl<T: Content + ?Sized> Content for &T {
+    fn write(&self, key: &mut Key) {
+        (**self).write(key);
+    }
+}
+
+impl<T: Content> Content for [T] {
+    fn write(&self, key: &mut Key) {
+        self.len().write(key);
+        self.iter().for_each(|entry| entry.write(key));
+    }
+}
+
+impl<T: Content> Content for Option<T> {
+    fn write(&self, key: &mut Key) {
+        self.is_some().write(key);
+        self.iter().for_each(|entry| entry.write(key));
+    }
+}
+
+impl<A: Content, B: Content> Content for (A, B) {
+    fn write(&self, key: &mut Key) {
+        self.0.write(key);
+        self.1.write(key);
+    }
+}
+
+impl<A: Content, B: Content, C: Content> Content for (A, B, C) {
+    fn write(&self, key: &mut Key) {
+        self.0.write(key);
+        self.1.write(key);
+        self.2.write(key);
+    }
+}
+
+impl Content for Knots {
+    fn write(&self, key: &mut Key) {
+        (self.degree(), self.values()).write(key);
+    }
+}
+
+impl<V: VectorSpace + Content> Content for Curve<V> {
+    fn write(&self, key: &mut Key) {
+        (self.knots(), self.points()).write(key);
+    }
+}
+
+impl<V: VectorSpace + Content> Content for Surface<V> {
+    fn write(&self, key: &mut Key) {
+        (self.knots_u(), self.knots_v(), self.points()).write(key);
+    }
+}
+
+/// How an edge runs in a face's parameters; which edge it is does not tell.
+impl Content for Coedge {
+    fn write(&self, key: &mut Key) {
+        (self.forward, &self.pcurve).write(key);
+    }
+}
+
+impl Content for EdgeCurve {
+    fn write(&self, key: &mut Key) {
+        match self {
+            Self::BSpline(curve) => (0_usize, curve).write(key),
+            Self::Rational(curve) => (1_usize, curve.homogeneous()).write(key),
+        }
+    }
+}
+
+impl Content for SurfaceGeometry {
+    fn write(&self, key: &mut Key) {
+        match self {
+            Self::Plane(plane) => (0_usize, plane.origin, (plane.x, plane.y)).write(key),
+            Self::Revolution(surface) => (1_usize, surface.meridian()).write(key),
+            Self::BSpline(surface) => (2_usize, surface).write(key),
+            Self::Rational(surface) => (3_usize, surface.homogeneous()).write(key),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(memo: &mut Memo<u64>, k: u64) -> u64 {
+        memo.get(Key::of(k), || Ok::<_, ()>(k * k)).unwrap()
+    }
+
+    #[test]
+    fn results_are_made_once_and_forgotten_when_long_unused() {
+        let mut memo = Memo::default();
+        assert_eq!([number(&mut memo, 3), number(&mut memo, 3), number(&mut memo, 4)], [9, 9, 16]);
+        assert_eq!(memo.made(), 2);
+        for _ in 0..2 * ROUNDS {
+            number(&mut memo, 3);
+            memo.end_round(true);
+        }
+        assert_eq!((memo.made(), memo.kept.len()), (2, 1));
+        // Rounds that are broken off forget nothing, but do not fill the memory either.
+        for k in 0..10_000 {
+            number(&mut memo, 5 + k);
+            memo.end_round(false);
+        }
+        assert!(memo.kept.len() <= LEFT_OVER.1 + 1, "{}", memo.kept.len());
+        assert_eq!(memo.get(Key::of(7.0), || Err(())), Err(()));
+    }
+
+    #[test]
+    fn keys_tell_apart_what_is_apart() {
+        let list = |numbers: &[f64]| Key::of(numbers);
+        for (one, other) in [
+            (Key::of(0.0), Key::of(-0.0)),
+            (Key::of(1.0), Key::of((1.0, 1.0))),
+            (Key::of(None::<f64>), Key::of(Some(0.0))),
+            (Key::of("a"), Key::of("ab")),
+            (list(&[1.0]).and([2.0].as_slice()), list(&[]).and([1.0, 2.0].as_slice())),
+            (list(&[1.0, 2.0]), list(&[2.0, 1.0])),
+        ] {
+            assert_ne!(one, other);
+        }
+        assert_eq!(Key::of(f64::NAN), Key::of(f64::NAN));
+    }
+}

@@ -1,0 +1,140 @@
+"""What is asked of the sidecar for a blade: a preview, or solids.
+
+No document is touched here, so that it may be done beside the window.
+"""
+
+import queue
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import convert
+from .client.latest import Watch
+from .client.mesh import Mesh, decode
+from .service import sidecar
+
+#: Preview: greatest distance between mesh and surface, mm, and angle between neighbouring normals.
+PREVIEW_CHORD_MM, PREVIEW_ANGLE_DEG = 0.1, 25.0
+
+
+@dataclass(frozen=True)
+class Request:
+    """A design, the sidecar's name for its model, and the folder of the files that it names."""
+
+    model: str
+    design: dict
+    folder: str = ""
+
+    def params(self) -> dict:
+        """Parameters of ``design/generate``."""
+        folder = {"folder": self.folder} if self.folder else {}
+        return {"model": self.model, "design": self.design, **folder}
+
+
+@dataclass(frozen=True)
+class Built:
+    """A blade's solids and their report."""
+
+    report: dict
+    solids: list[convert.Solid]
+
+
+def preview(request: Request, watch: Watch) -> list[Mesh]:
+    """Meshes of the design, quickly."""
+    server = sidecar()
+    generating = _part(watch, 0.0, 0.9)
+    server.call(
+        "design/generate", **request.params(), report=False, progress=generating, cancelled=watch.stopped
+    )
+    reply = server.call(
+        "model/tessellate",
+        model=request.model,
+        chord_mm=PREVIEW_CHORD_MM,
+        angle_deg=PREVIEW_ANGLE_DEG,
+        cancelled=watch.stopped,
+    )
+    watch.check()
+    return [decode(solid) for solid in reply["solids"]]
+
+
+def build(request: Request, watch: Watch, *, beside: bool) -> Built:
+    """Solids of the design; ``beside``: the shapes are read in another process."""
+    server = sidecar()
+    report = server.call(
+        "design/generate", **request.params(), progress=_part(watch, 0.0, 0.4), cancelled=watch.stopped
+    )["report"]
+    # Only names, colours and the faces' vertices are looked at.
+    coarse = {"chord_mm": 1.0, "angle_deg": 60.0}
+    reply = server.call("model/tessellate", model=request.model, cancelled=watch.stopped, **coarse)
+    with tempfile.TemporaryDirectory(prefix="coolinggen-") as folder:
+        files = server.call(
+            "model/export",
+            model=request.model,
+            folder=folder,
+            formats=["step"],
+            solids=["assembly"],
+            progress=_part(watch, 0.4, 0.5),
+            cancelled=watch.stopped,
+        )
+        watch.progress("read", 0.5)
+        step = Path(files["files"][0]["path"])
+        if beside:
+            solids = convert.read_beside(step, reply, watch)
+        else:
+            solids = convert.read(step, [decode(solid) for solid in reply["solids"]])
+    watch.check()
+    return Built(report, solids)
+
+
+def alone(request: Request) -> Built:
+    """``build`` for a FreeCAD without a window: waits until it is done."""
+    return build(request, Watch(None, queue.Queue()), beside=False)
+
+
+def export(request: Request, target: Path, kinds: list[str], watch: Watch) -> list[Path]:
+    """Writes a blade's files in formats of the sidecar; the paths."""
+    server = sidecar()
+    server.call(
+        "design/generate",
+        **request.params(),
+        report=False,
+        progress=_part(watch, 0.0, 0.5),
+        cancelled=watch.stopped,
+    )
+    reply = server.call(
+        "model/export",
+        model=request.model,
+        folder=str(target),
+        formats=kinds,
+        progress=_part(watch, 0.5, 1.0),
+        cancelled=watch.stopped,
+    )
+    return [Path(file["path"]) for file in reply["files"]]
+
+
+def wall_thickness(request: Request, watch: Watch) -> list[Mesh]:
+    """Meshes of the coolant with the wall thickness at their vertices."""
+    server = sidecar()
+    server.call(
+        "design/generate",
+        **request.params(),
+        report=False,
+        progress=_part(watch, 0.0, 0.5),
+        cancelled=watch.stopped,
+    )
+    reply = server.call(
+        "model/tessellate",
+        model=request.model,
+        chord_mm=PREVIEW_CHORD_MM,
+        # Colours run between vertices: there must be enough of them.
+        angle_deg=8.0,
+        solids=["coolant"],
+        wall_thickness=True,
+        progress=_part(watch, 0.5, 1.0),
+        cancelled=watch.stopped,
+    )
+    return [decode(solid) for solid in reply["solids"]]
+
+
+def _part(watch: Watch, begin: float, end: float):
+    return lambda stage, fraction: watch.progress(stage, begin + (end - begin) * fraction)

@@ -1,0 +1,1 @@
+"""Widgets for a form's nodes. They write into the design as they are edited and tell the panel."""
