@@ -22,7 +22,8 @@ def material(solid: str, layer: str, color: tuple[float, float, float]):
     roughness, metallic = LOOKS.get(kind, LOOKS["metal"])
     made = bpy.data.materials.new(name)
     made.diffuse_color = (*color, 1.0)
-    made.roughness, made.metallic = roughness, metallic
+    # The viewport's metals mirror a dark studio.
+    made.roughness, made.metallic = roughness, 0.0
     made.use_nodes = True
     shader = made.node_tree.nodes["Principled BSDF"]
     shader.inputs["Base Color"].default_value = (*color, 1.0)

@@ -315,6 +315,27 @@ fn serpentines_of_two_to_seven_passages_in_a_linear_cascade() {
     }
 }
 
+#[test]
+fn a_turn_of_the_leading_chamber_of_a_blunt_vane_joins_without_creases() {
+    for first in ["tip", "hub"] {
+        let mut design = sample("c3x.json");
+        design["cooling"] = json!({"shell": {"suction_side": 3, "pressure_side": 3, "tip": 4, "hub": 4}});
+        set_chain(&mut design["cooling"], &[0.2, 0.4], 2.5, 2.5, [1.5, 1.2]);
+        let ends = if first == "tip" { ["tip", "hub"] } else { ["hub", "tip"] };
+        for (turn, end) in design["cooling"]["turns"].as_array_mut().unwrap().iter_mut().zip(ends) {
+            turn["end"] = json!(end);
+            turn["clearance"] = json!(8.0);
+        }
+        let generated = built(&design);
+        check_solids(&generated);
+        let found = creases(&generated.blade.model);
+        for ((a, b), angle) in found.iter().filter(|((_, b), _)| b.starts_with("turn/t1/")) {
+            let most = if a.starts_with("chamber/") { 1e-3 } else { 0.5 };
+            assert!(*angle < most, "{first} {a} | {b}: {angle} deg");
+        }
+    }
+}
+
 /// The faults of the serpentine changed by `change`, as (pointer, code, value, min, max).
 fn faults(change: impl Fn(&mut Value)) -> Vec<Fault> {
     let mut design = serpentine();
@@ -375,4 +396,29 @@ fn turns_without_room_are_refused_with_the_number_that_fits() {
         c["shell"].as_object_mut().unwrap().remove("tip");
     };
     refused(bare, "/cooling/shell/tip", "missing");
+}
+
+/// Film holes open into the sides of turns at the tip and at the hub.
+#[test]
+fn film_holes_open_into_turns() {
+    let mut design = serpentine();
+    let row = |name: &str, side: &str, position: f64, span: [f64; 2], count: usize| {
+        json!({"name": name, "side": side, "surface_position": position, "span": span, "count": count,
+            "hole": {"diameter": 0.5, "inclination_deg": 40}})
+    };
+    design["cooling"]["film_rows"] = json!([
+        row("tip_ss", "suction_side", 0.32, [0.86, 0.95], 4),
+        row("tip_ps", "pressure_side", 0.35, [0.86, 0.95], 4),
+        row("hub_ss", "suction_side", 0.62, [0.05, 0.14], 4),
+        row("hub_ps", "pressure_side", 0.6, [0.05, 0.14], 4),
+    ]);
+    let generated = built(&design);
+    check_solids(&generated);
+    assert_eq!(generated.report.genus["metal"].found, Some(16));
+    for turn in ["tip", "hub"] {
+        for side in ["suction_side", "pressure_side"] {
+            let face = face(&generated.blade.model, &format!("turn/{turn}/{side}"));
+            assert_eq!(face.loops.len(), 1 + 4, "{}", face.name);
+        }
+    }
 }

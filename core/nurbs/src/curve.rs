@@ -121,6 +121,8 @@ impl<V: VectorSpace> Curve<V> {
             2 => self.table_of::<ORDER, 3>(t),
             3 => self.table_of::<ORDER, 4>(t),
             5 => self.table_of::<ORDER, 6>(t),
+            // Profiles of four-digit sections.
+            8 => self.table_of::<ORDER, 9>(t),
             _ => self.table_of::<ORDER, { MAX_DEGREE + 1 }>(t),
         }
     }

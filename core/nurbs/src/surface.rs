@@ -197,6 +197,7 @@ impl<V: VectorSpace> Surface<V> {
             (3, 3) => self.table_of::<ORDER, 4, 4>(u, v),
             (3, 1) => self.table_of::<ORDER, 4, 2>(u, v),
             (5, 3) => self.table_of::<ORDER, 6, 4>(u, v),
+            (5, 5) => self.table_of::<ORDER, 6, 6>(u, v),
             (2, 2) => self.table_of::<ORDER, 3, 3>(u, v),
             _ => self.table_of::<ORDER, { MAX_DEGREE + 1 }, { MAX_DEGREE + 1 }>(u, v),
         }

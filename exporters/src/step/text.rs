@@ -1,6 +1,6 @@
 //! Numbers and strings as ISO 10303-21 writes them.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
 /// A real: shortest decimal that reads back as the same double, with the decimal point the format asks for.
 pub(crate) struct Real(pub(crate) f64);
@@ -8,12 +8,36 @@ pub(crate) struct Real(pub(crate) f64);
 impl fmt::Display for Real {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // Debug prints a point or an exponent, the exponent possibly without point.
-        let text = format!("{:?}", self.0 + 0.0);
+        let mut text = Short::default();
+        write!(text, "{:?}", self.0 + 0.0)?;
+        let text = text.as_str()?;
         match text.split_once('e') {
             Some((mantissa, exponent)) if mantissa.contains('.') => write!(f, "{mantissa}E{exponent}"),
             Some((mantissa, exponent)) => write!(f, "{mantissa}.E{exponent}"),
-            None => f.write_str(&text),
+            None => f.write_str(text),
         }
+    }
+}
+
+/// The text of a number, without an allocation: most of a file are numbers.
+#[derive(Default)]
+struct Short {
+    bytes: [u8; 32],
+    length: usize,
+}
+
+impl Short {
+    fn as_str(&self) -> Result<&str, fmt::Error> {
+        std::str::from_utf8(&self.bytes[..self.length]).map_err(|_| fmt::Error)
+    }
+}
+
+impl fmt::Write for Short {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        let end = self.length + text.len();
+        self.bytes.get_mut(self.length..end).ok_or(fmt::Error)?.copy_from_slice(text.as_bytes());
+        self.length = end;
+        Ok(())
     }
 }
 
@@ -24,7 +48,10 @@ impl<T: fmt::Display, I: Clone + IntoIterator<Item = T>> fmt::Display for List<I
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("(")?;
         for (i, item) in self.0.clone().into_iter().enumerate() {
-            write!(f, "{}{item}", if i == 0 { "" } else { "," })?;
+            if i > 0 {
+                f.write_str(",")?;
+            }
+            item.fmt(f)?;
         }
         f.write_str(")")
     }

@@ -1,10 +1,7 @@
 //! Cut-out functions: the part of an extended medial surface that is the blade's (section 4.2).
 
 use super::medial_surface::{points_met, stations};
-use super::pace::Pace;
-use super::profile::Profile;
-use super::sides::{Tip, TwoSided};
-use crate::law::Law;
+use super::sides::{SIGN, Side, Tip, TwoSided};
 use coolinggen_nurbs::{
     Constraint, ConstraintValue, Knots, LeastSquares, NurbsError, ParametricSurface, Surface,
     SurfaceDerivatives,
@@ -32,7 +29,7 @@ impl CutOut {
         knots_v: &Knots,
         edges: impl Fn(f64) -> [f64; 2],
     ) -> Result<Self, NurbsError> {
-        let vs = stations(knots_v);
+        let vs = stations(knots_v, knots_v.degree() + 3);
         let data: Vec<[f64; 2]> = vs.iter().map(|&v| edges(v)).collect();
         let last = vs.len() - 1;
         let (plain, met) = points_met(knots_v, &vs, &[0, last])?;
@@ -122,24 +119,20 @@ impl ParametricSurface<DVec3> for CutOut {
 pub(crate) struct PointedSides {
     /// The medial surface.
     pub(crate) medial: CutOut,
-    /// The profile curve.
-    pub(crate) profile: Profile,
-    /// u(t), Eq. 33.
-    pub(crate) pace: Pace,
-    /// The scaling function, zero at v = 1.
-    pub(crate) scale: Law,
+    /// The side along the normal, then the one against it: u(t) by Eq. 33, scaling functions that are zero at v = 1.
+    pub(crate) sides: [Side; 2],
 }
 
 impl TwoSided for PointedSides {
     fn point(&self, k: usize, t: f64, v: f64) -> DVec3 {
-        let u = self.pace.at(t);
-        let lift = if k == 0 { 1.0 } else { -1.0 } * self.scale.at(v) * self.profile.at(t)[0].y;
+        let side = &self.sides[k];
+        let u = side.pace.at(t);
+        let lift = SIGN[k] * side.scale.at(v) * side.profile.at(t)[0].y;
         self.medial.point(u, v) + self.medial.normal(u, v) * lift
     }
 
-    fn nose(&self, _: usize) -> (f64, f64) {
-        let [_, slope, change] = self.profile.at(0.0);
-        (self.scale.at(0.5) * slope.y, 0.5 * change.y / slope.y)
+    fn nose(&self, k: usize) -> (f64, f64) {
+        self.sides[k].nose()
     }
 
     fn tip(&self) -> Option<Tip> {

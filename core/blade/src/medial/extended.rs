@@ -5,6 +5,9 @@ use super::streamline::Streamline;
 use coolinggen_nurbs::{Knots, NurbsError, Surface};
 use glam::{DVec2, DVec3};
 
+/// Data a span of the fit.
+const EACH: usize = 8;
+
 /// A streamline continued beyond both edges, with two continuous derivatives: the curvature it ends with decays over
 /// half its length.
 #[derive(Clone, Debug)]
@@ -47,7 +50,7 @@ pub(crate) fn extended<E: From<NurbsError>>(
     knots_v: &Knots,
     line: impl Fn(f64) -> Result<Box<dyn Fn(f64) -> DVec3>, E>,
 ) -> Result<Surface<DVec3>, E> {
-    let (us, vs) = (stations(knots_u), stations(knots_v));
+    let (us, vs) = (stations(knots_u, EACH), stations(knots_v, EACH));
     let mut points = vec![DVec3::ZERO; us.len() * vs.len()];
     for (j, &v) in vs.iter().enumerate() {
         let at = line(v)?;

@@ -34,6 +34,10 @@ fn pace(u: f64) -> f64 {
 const SECOND_AT_START: f64 = 3.0;
 const FIRST_AT_END: f64 = 1.5;
 
+/// Streamlines a span of the knots in v, and places a span of those in u: a span takes one control point.
+const LINES: usize = 4;
+const PLACES: usize = 6;
+
 /// Streamlines at the stations that fits on some knots in v take, and some between to check these fits with.
 #[derive(Clone, Debug)]
 pub(crate) struct Streamlines {
@@ -46,7 +50,7 @@ pub(crate) struct Streamlines {
 impl Streamlines {
     /// Draws them; `streamline` draws the one of v.
     pub(crate) fn new<E>(knots: Knots, streamline: impl Fn(f64) -> Result<Streamline, E>) -> Result<Self, E> {
-        let v = stations(&knots);
+        let v = stations(&knots, LINES);
         let lines = v.iter().map(|&v| streamline(v)).collect::<Result<_, _>>()?;
         let between = |j: usize| 0.5 * (v[j] + v[j + 1]);
         let checks = [1, 3, 5, 7].map(|j| between(j * (v.len() - 2) / 8));
@@ -59,7 +63,7 @@ impl MedialSurface {
     /// The best surface on `knots_u` and the streamlines' knots in the sense of least squares (Eq. 10), with Eq. 9.
     /// Points, the direction at the leading edge and the derivative at the trailing edge are met.
     pub(crate) fn new(knots_u: &Knots, streamlines: &Streamlines) -> Result<Self, NurbsError> {
-        let (us, vs) = (stations(knots_u), &streamlines.v);
+        let (us, vs) = (stations(knots_u, PLACES), &streamlines.v);
         let mut points = vec![DVec3::ZERO; (us.len() + 2) * vs.len()];
         for (j, line) in streamlines.lines.iter().enumerate() {
             for (i, p) in column(line, &us).into_iter().enumerate() {
@@ -97,13 +101,18 @@ fn column(streamline: &Streamline, us: &[f64]) -> Vec<DVec3> {
     out
 }
 
-/// Data parameters for a fit on `knots`: evenly in every span, the breaks among them.
-pub(super) fn stations(knots: &Knots) -> Vec<f64> {
-    let each = knots.degree() + 3;
+/// Data parameters for a fit on `knots`: `each` evenly in every span, more at repeated knots, the breaks among them.
+pub(super) fn stations(knots: &Knots, each: usize) -> Vec<f64> {
     let breaks = knots.breaks();
-    let spans =
-        breaks.windows(2).flat_map(|w| (0..each).map(|k| w[0] + (w[1] - w[0]) * k as f64 / each as f64));
-    spans.chain(breaks.last().copied()).collect()
+    let last = breaks.len() - 1;
+    let repeated = |i: usize| i > 0 && i < last && knots.multiplicity(breaks[i]) > 1;
+    let mut out = Vec::new();
+    for i in 0..last {
+        let count = if repeated(i) || repeated(i + 1) { each.max(knots.degree() + 3) } else { each };
+        out.extend((0..count).map(|k| breaks[i] + (breaks[i + 1] - breaks[i]) * k as f64 / count as f64));
+    }
+    out.push(breaks[last]);
+    out
 }
 
 /// A fit that meets the data of these indices, and what its constraints equal.
@@ -149,8 +158,9 @@ fn normals(surface: &Surface<DVec3>, us: &[f64], vs: &[f64]) -> Result<(Surface<
     let grid = us.iter().flat_map(|&u| vs.iter().map(move |&v| unit_normal(surface, u, v)));
     let normals = fit_u.surface(&fit_v, &grid.collect::<Vec<_>>(), &values_u, &values_v)?;
     let mut worst: f64 = 0.0;
-    for u in us.windows(2).map(|w| 0.5 * (w[0] + w[1])) {
-        for v in vs.windows(2).map(|w| 0.5 * (w[0] + w[1])) {
+    // Between the data, at every other place.
+    for u in us.windows(2).step_by(2).map(|w| 0.5 * (w[0] + w[1])) {
+        for v in vs.windows(2).step_by(2).map(|w| 0.5 * (w[0] + w[1])) {
             worst = worst.max(normals.point(u, v).distance(unit_normal(surface, u, v)));
         }
     }

@@ -15,6 +15,7 @@ mod deviation;
 mod extended;
 mod knots;
 mod medial_surface;
+mod nearest;
 mod pace;
 mod profile;
 mod sides;

@@ -75,16 +75,8 @@ impl Pace {
         lines: &[Line],
     ) -> Vec<f64> {
         let breaks = self.curve.breaks();
-        let sums: Vec<f64> = breaks
-            .windows(2)
-            .map(|span| {
-                places(span)
-                    .map(|(t, w)| {
-                        w * lines.iter().map(|l| l.miss(medial, profile, &self.curve, t).powi(2)).sum::<f64>()
-                    })
-                    .sum()
-            })
-            .collect();
+        let sums: Vec<f64> =
+            breaks.windows(2).map(|span| squares(span, medial, profile, &self.curve, lines)).collect();
         let mean = sums.iter().sum::<f64>() / sums.len() as f64;
         let bad = breaks.windows(2).zip(&sums).filter(|(_, s)| **s >= mean);
         bad.map(|(span, _)| 0.5 * (span[0] + span[1])).collect()
@@ -118,13 +110,23 @@ impl Line {
         };
         Self { v, length: breaks.windows(2).map(simpson).sum() }
     }
+}
 
-    /// `|m_1| u' / lambda - x'` at `t`.
-    fn miss(&self, medial: &impl ParametricSurface<DVec3>, profile: &Profile, u: &Curve<f64>, t: f64) -> f64 {
-        let [value, slope, _] = u.derivatives(t);
-        medial.derivatives(value.clamp(0.0, 1.0), self.v).u.length() * slope / self.length
-            - profile.at(t)[1].x
-    }
+/// The integral over a span of the squares of `|m_1| u' / lambda - x'`, the mean over the lines.
+fn squares(
+    span: &[f64],
+    medial: &impl ParametricSurface<DVec3>,
+    profile: &Profile,
+    u: &Curve<f64>,
+    lines: &[Line],
+) -> f64 {
+    let at = |(t, weight): (f64, f64)| {
+        let ([value, slope, _], x) = (u.derivatives(t), profile.at(t)[1].x);
+        let value = value.clamp(0.0, 1.0);
+        let miss = |l: &Line| medial.first_derivatives(value, l.v).1.length() * slope / l.length - x;
+        weight * lines.iter().map(|l| miss(l).powi(2)).sum::<f64>()
+    };
+    places(span).map(at).sum()
 }
 
 /// Places in a span with their weights.
@@ -143,8 +145,7 @@ fn solved(
     lines: &[Line],
 ) -> Result<Pace, NurbsError> {
     let total = |u: &Curve<f64>| -> f64 {
-        let square = |t: f64| lines.iter().map(|l| l.miss(medial, profile, u, t).powi(2)).sum::<f64>();
-        u.breaks().windows(2).map(|span| places(span).map(|(t, w)| w * square(t)).sum::<f64>()).sum()
+        u.breaks().windows(2).map(|span| squares(span, medial, profile, u, lines)).sum()
     };
     let (mut curve, mut value) = (start.clone(), total(&start));
     for _ in 0..STEPS {

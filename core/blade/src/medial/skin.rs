@@ -3,6 +3,7 @@
 use super::deviation::Deviation;
 use super::knots;
 use super::medial_surface::{ends_met, points_met};
+use super::nearest::{Foot, Freedom, nearest};
 use super::sides::{Tip, TwoSided};
 use coolinggen_nurbs::{Constraint, ConstraintValue, Knots, LeastSquares, NurbsError, Surface};
 use glam::DVec3;
@@ -50,6 +51,9 @@ const DENSITY: usize = 6;
 const CORRECTIONS: usize = 4;
 /// Lines of constant v.
 const LINES: usize = 48;
+/// Points a side and lines that a skin of a size is to be close to: for each control point, and the least.
+const FEET: [usize; 2] = [3, 2];
+const LEAST_FEET: [usize; 2] = [60, 20];
 /// Least data a side and lines where a tolerance is to be kept.
 const FINE: [usize; 2] = [300, 128];
 /// Step of the differences that give derivatives at the tip.
@@ -58,20 +62,27 @@ const STEP: f64 = 1e-5;
 impl Skin {
     /// The skin of a size, beginning with side `first`.
     pub(crate) fn new(sides: &dyn TwoSided, first: usize, size: SkinSize) -> Result<Self, NurbsError> {
-        let mut places = Places::new(sides, first, LEAST.max(DENSITY * size.counts[0]));
+        let places = Places::new(sides, first, LEAST.max(DENSITY * size.counts[0]));
         let data = Data::new(sides, first, &places, LINES);
         let [p, q] = size.degree;
-        let mut knots_u = Knots::uniform(p, size.counts[0])?;
-        let mut knots_v = Knots::uniform(q, size.counts[1])?;
+        let (even_u, even_v) = (Knots::uniform(p, size.counts[0])?, Knots::uniform(q, size.counts[1])?);
+        let mut best = data.nearest(sides, first, &even_u, &even_v, &places, size)?;
         if size.optimised {
+            // Steps lead to the least distance near where they begin: knots put for data at fixed parameters are another
+            // place to begin.
+            let (mut knots_u, mut moved) = (even_u, places);
             let lines = data.columns();
             for _ in 0..CORRECTIONS {
-                knots_u = knots::optimised(knots_u, &places.s, &lines, &places.met())?;
-                places.s = knots::corrected(&knots_u, &places.s, &lines, &places.met())?;
+                knots_u = knots::optimised(knots_u, &moved.s, &lines, &moved.met())?;
+                moved.s = knots::corrected(&knots_u, &moved.s, &lines, &moved.met())?;
             }
-            knots_v = knots::optimised(knots_v, &data.v, &data.rows(), &data.ends())?;
+            let knots_v = knots::optimised(even_v, &data.v, &data.rows(), &data.ends())?;
+            let other = data.nearest(sides, first, &knots_u, &knots_v, &moved, size)?;
+            if other.2 < best.2 {
+                best = other;
+            }
         }
-        let surface = data.fit(&knots_u, &knots_v, &places, false)?;
+        let (surface, places, _) = best;
         Ok(Self { surface, first, places })
     }
 
@@ -155,8 +166,11 @@ struct Data {
 impl Data {
     fn new(sides: &dyn TwoSided, first: usize, places: &Places, lines: usize) -> Self {
         let v: Vec<f64> = (0..=lines).map(|j| j as f64 / lines as f64).collect();
-        let row = |i: usize| v.iter().map(|&v| side_point(sides, first, places.count, i, v)).collect();
-        let points = (0..=2 * places.count).map(row).collect();
+        let t: Vec<f64> = (0..=places.count).map(|i| i as f64 / places.count as f64).collect();
+        // Backwards along the first side, then along the other from behind the leading edge.
+        let mut points = sides.grid(first, &t, &v);
+        points.reverse();
+        points.extend(sides.grid(1 - first, &t[1..], &v));
         let tip = sides.tip();
         let rate = |i: usize| {
             // One-sided, exact for cubics.
@@ -250,26 +264,73 @@ impl Data {
         let height = |p: &DVec3| tip.normal.dot(*p - tip.point);
         let heights: Vec<f64> = self.points.iter().flatten().map(height).collect();
         let heights = fit_u.surface(&still, &heights, values_u, &values_v)?;
-        let (rows, columns) = surface.counts();
+        let columns = surface.counts().1;
         let mut points = surface.points().to_vec();
         for (p, h) in points.iter_mut().zip(heights.points()) {
             *p += tip.normal * (h - height(p));
         }
         if let Some(edge) = tip.edge {
-            for (row, data) in [(0, &self.points[0]), (rows - 1, &self.points[self.points.len() - 1])] {
-                let ends = [data[0], data[last], DVec3::ZERO];
+            let last = points.len() - columns;
+            for (at, data) in [(0, &self.points[0]), (last, &self.points[self.points.len() - 1])] {
+                let ends = [data[0], data[self.v.len() - 1], DVec3::ZERO];
                 let flat = still.curve(data, &ends)?.curve;
-                for (p, q) in points[row * columns..(row + 1) * columns].iter_mut().zip(flat.points()) {
+                for (p, q) in points[at..at + columns].iter_mut().zip(flat.points()) {
                     *p = *q + edge * edge.dot(*p - *q);
                 }
             }
         }
         // What the constraints leave of zero is rounding.
-        for row in points.chunks_exact_mut(columns) {
-            row[columns - 1] = tip.point;
-            let p = &mut row[columns - 2];
-            *p -= tip.normal * height(p);
-        }
+        points.chunks_exact_mut(columns).for_each(|row| tip.meet(row));
         Surface::new(surface.knots_u().clone(), knots_v.clone(), points)
+    }
+
+    /// The surface nearest to the sides that is found from the best fit at fixed parameters, its places, and the sum of
+    /// squared distances. The lines of the trailing edge stay, and so do a tip and its plane.
+    fn nearest(
+        &self,
+        sides: &dyn TwoSided,
+        first: usize,
+        knots_u: &Knots,
+        knots_v: &Knots,
+        places: &Places,
+        size: SkinSize,
+    ) -> Result<(Surface<DVec3>, Places, f64), NurbsError> {
+        let [rows, columns] = size.counts;
+        let around = LEAST_FEET[0].max(FEET[0] * rows);
+        let along = LEAST_FEET[1].max(FEET[1] * columns);
+        // A tip is no line.
+        let lines = along + usize::from(self.tip.is_none());
+        let foot = |i: usize, j: usize| {
+            let t = (i as f64 - around as f64) / around as f64;
+            let (s, v) = (places.at(t > 0.0, t.abs()), j as f64 / along as f64);
+            Foot { target: side_point(sides, first, around, i, v), s, v, asked: (s, v) }
+        };
+        let mut feet: Vec<Foot> =
+            (0..=2 * around).flat_map(|i| (0..lines).map(move |j| foot(i, j))).collect();
+        let freedom = |i: usize, j: usize| match &self.tip {
+            _ if i == 0 || i + 1 == rows => Freedom::Held,
+            Some(_) if j + 1 == columns => Freedom::Held,
+            Some(tip) if j + 2 == columns => Freedom::InPlane(tip.normal),
+            _ => Freedom::Free,
+        };
+        let start = self.fit(knots_u, knots_v, places, false)?;
+        let (surface, sum) = nearest(start, &mut feet, lines, &freedom, size.optimised)?;
+        let mut points = surface.points().to_vec();
+        if let Some(tip) = &self.tip {
+            // What the steps leave of zero is rounding.
+            points.chunks_exact_mut(columns).for_each(|row| tip.meet(row));
+        }
+        let surface = Surface::new(surface.knots_u().clone(), knots_v.clone(), points)?;
+        let s = feet.chunks_exact(lines).map(|row| row[0].asked.0).collect();
+        Ok((surface, Places { count: around, s }, sum))
+    }
+}
+
+impl Tip {
+    /// Puts the last two points of a row to the tip and into its plane, exactly.
+    fn meet(&self, row: &mut [DVec3]) {
+        let last = row.len() - 1;
+        row[last] = self.point;
+        row[last - 1] -= self.normal * self.normal.dot(row[last - 1] - self.point);
     }
 }

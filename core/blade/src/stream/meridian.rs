@@ -3,6 +3,7 @@
 use super::measure::Measure;
 use coolinggen_nurbs::{Curve, ParametricCurve};
 use glam::DVec2;
+use std::sync::OnceLock;
 
 /// A streamline in the meridional plane, with arc length and with the conformal coordinate M along it.
 #[derive(Clone, Debug)]
@@ -20,8 +21,8 @@ enum Form {
     /// A straight line: everything in closed form.
     Straight { start: DVec2, direction: DVec2, length: f64 },
     Curved {
-        /// Arc length from the start.
-        arc: Measure,
+        /// Arc length from the start, once it has been asked for.
+        arc: OnceLock<Measure>,
         /// Integral of `r_ref dm / r` from the start.
         conformal: Measure,
         /// Its value at the reference station.
@@ -44,11 +45,6 @@ impl Meridian {
             Some((start, direction)) => Form::Straight { start, direction, length: direction.length() },
             None => {
                 let breaks = curve.breaks();
-                let arc = Measure::new(&breaks, ACCURACY, |s| {
-                    let [_, d, dd] = curve.derivatives(s);
-                    let speed = d.length();
-                    (speed, d.dot(dd) / speed)
-                });
                 let conformal = Measure::new(&breaks, ACCURACY, |s| {
                     let [p, d, dd] = curve.derivatives(s);
                     let speed = d.length();
@@ -62,7 +58,7 @@ impl Meridian {
                     .chain(breaks.last().copied())
                     .map(|s| (s, curve.point(s)))
                     .collect();
-                Form::Curved { arc, conformal, offset, samples }
+                Form::Curved { arc: OnceLock::new(), conformal, offset, samples }
             }
         };
         Self { curve, form, reference_radius, reference }
@@ -115,11 +111,22 @@ impl Meridian {
         }
     }
 
+    /// The table of arc length: much of what stands on stream surfaces never asks for it.
+    fn measured<'a>(&self, arc: &'a OnceLock<Measure>) -> &'a Measure {
+        arc.get_or_init(|| {
+            Measure::new(&self.curve.breaks(), ACCURACY, |s| {
+                let [_, d, dd] = self.curve.derivatives(s);
+                let speed = d.length();
+                (speed, d.dot(dd) / speed)
+            })
+        })
+    }
+
     /// Arc length from the start of the contour to parameter `s`, mm.
     pub(super) fn arc(&self, s: f64) -> f64 {
         match &self.form {
             Form::Straight { length, .. } => length * s,
-            Form::Curved { arc, .. } => arc.forward(s),
+            Form::Curved { arc, .. } => self.measured(arc).forward(s),
         }
     }
 
@@ -127,7 +134,7 @@ impl Meridian {
     pub(super) fn at_arc(&self, m: f64) -> f64 {
         match &self.form {
             Form::Straight { length, .. } => m / length,
-            Form::Curved { arc, .. } => arc.backward(m),
+            Form::Curved { arc, .. } => self.measured(arc).backward(m),
         }
     }
 
@@ -135,7 +142,7 @@ impl Meridian {
     pub(super) fn length(&self) -> f64 {
         match &self.form {
             Form::Straight { length, .. } => *length,
-            Form::Curved { arc, .. } => arc.total(),
+            Form::Curved { arc, .. } => self.measured(arc).total(),
         }
     }
 

@@ -14,8 +14,12 @@ use glam::DVec2;
 use std::ops::RangeInclusive;
 
 /// Length to either side of a jump of curvature over which it is spread, relative to the distance between the profile
-/// and its offset. It changes the thickness there by less than a percent.
-const REACH: f64 = 0.1;
+/// and its offset, or to the radius of the arc that makes it. It takes less than a thousandth of either.
+const REACH: f64 = 0.03;
+
+/// Distances from an arc's end, in reaches, at which the outline beside it has nodes: wider gaps would spread the jump of
+/// curvature over more than asked.
+const BESIDE: [f64; 5] = [16.0, 8.0, 4.0, 2.0, 1.0];
 
 /// An offset parametrised by about its length in the chart, twice continuously differentiable, and bridging what is
 /// too sharp for the chamber's front.
@@ -71,8 +75,12 @@ impl Bridged {
     pub(super) fn contacts(&self) -> Option<(f64, f64)> {
         let circle = self.offset.circle.as_ref()?;
         let reach = 2.0 * REACH * circle.radius;
-        let u_at = |length: f64| mapped(&self.pairs, length, |p| p.1, |p| p.0);
-        Some((u_at(circle.pressure - reach), u_at(circle.suction + reach)))
+        Some((self.u_at(circle.pressure - reach), self.u_at(circle.suction + reach)))
+    }
+
+    /// The grid's parameter u at a length.
+    fn u_at(&self, length: f64) -> f64 {
+        mapped(&self.pairs, length, |p| p.1, |p| p.0)
     }
 
     /// The offset with its nose opened by the end circle, and where the parameters `ends` of the grid lie on it. Without
@@ -93,23 +101,34 @@ impl Bridged {
         let outline = &self.offset.outline;
         let reach = REACH * circle.radius;
         let (mut kept, mut nodes) = (Vec::new(), Vec::new());
-        let mut keep = |pairs: &mut dyn Iterator<Item = &(f64, f64)>, nodes: &mut Vec<(DVec2, DVec2)>| {
-            for &(u, length) in pairs {
+        let mut keep = |lengths: &mut dyn Iterator<Item = f64>, nodes: &mut Vec<(DVec2, DVec2)>| {
+            for length in lengths {
                 let frame = outline.frame(length);
-                kept.push((u, nodes.len()));
+                kept.push((self.u_at(length), nodes.len()));
                 nodes.push((frame.point, frame.tangent));
             }
         };
-        keep(&mut self.pairs.iter().filter(|p| p.1 < circle.pressure - reach), &mut nodes);
+        let clear = (BESIDE[0] + 8.0) * reach;
+        let lengths = || self.pairs.iter().map(|p| p.1);
+        let before = lengths().filter(|l| *l < circle.pressure - clear);
+        keep(&mut before.chain(BESIDE.map(|k| circle.pressure - k * reach)), &mut nodes);
         // The arc runs from the pressure side to the suction side, round the front.
         let [from, to] = [circle.pressure, circle.suction]
             .map(|length| (outline.frame(length).point - circle.center).normalize());
         let sweep = angle_between(from, -circle.tangent) + angle_between(-circle.tangent, to);
-        for i in 1..ARC_NODES {
-            let direction = DVec2::from_angle(sweep * f64::from(i) / f64::from(ARC_NODES)).rotate(from);
+        // Close to both ends, even between.
+        let shares = (1..ARC_NODES).map(|i| f64::from(i) / f64::from(ARC_NODES));
+        let least = REACH / sweep.abs();
+        let mut angles = vec![least, 2.0 * least];
+        angles.extend(shares.filter(|s| (3.0 * least..=1.0 - 3.0 * least).contains(s)));
+        angles.extend([1.0 - 2.0 * least, 1.0 - least]);
+        for share in angles {
+            let direction = DVec2::from_angle(sweep * share).rotate(from);
             nodes.push((circle.center + direction * circle.radius, direction.perp() * sweep.signum()));
         }
-        keep(&mut self.pairs.iter().filter(|p| p.1 > circle.suction + reach), &mut nodes);
+        let after = lengths().filter(|l| *l > circle.suction + clear);
+        let beside = BESIDE.iter().rev().map(|k| circle.suction + k * reach);
+        keep(&mut beside.chain(after), &mut nodes);
         let (outline, lengths) = through(&nodes, outline.inward())?;
         let pairs: Vec<(f64, f64)> = kept.into_iter().map(|(u, node)| (u, lengths[node])).collect();
         let camber = camber(grid, section, &outline, &pairs, radii.in_chart(section))?;

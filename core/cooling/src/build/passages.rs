@@ -216,18 +216,57 @@ fn chamber_rings<'s>(stack: &'s Stack, plan: &Plan, k: usize) -> (Vec<RingSectio
 
 /// The ring of chamber `k` in section `i`, or what is refused.
 pub(super) fn ring_at(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Box<Fault>> {
-    ring_of(stack, plan, k, i).map_err(|refusal| {
-        let v = stack.sections[i].stream.v();
-        Box::new(BuildError::fault(&blame(plan, k, &refusal), v, &refusal))
-    })
+    ring_of(stack, plan, k, i).map_err(|refusal| refused(stack, plan, k, i, &refusal))
+}
+
+/// The refusal of chamber `k` in section `i`.
+fn refused(stack: &Stack, plan: &Plan, k: usize, i: usize, refusal: &Refusal) -> Box<Fault> {
+    let v = stack.sections[i].stream.v();
+    Box::new(BuildError::fault(&blame(plan, k, refusal), v, refusal))
+}
+
+/// The rings that chamber `k` would have in the `sections` of a turn if it went on, from its own last one. There is no
+/// chamber beyond that, only a form that the turn leaves: where the blade gets too thin for the fillets, they shrink, with
+/// the square of the way.
+pub(super) fn rings_beyond(
+    stack: &Stack,
+    plan: &Plan,
+    k: usize,
+    sections: &[usize],
+) -> Result<Vec<ChamberRing>, Box<Fault>> {
+    const FITTING: f64 = 0.9;
+    let way = |n: usize| (n as f64 / (sections.len() - 1) as f64).powi(2);
+    let tried: Vec<Result<ChamberRing, Refusal>> =
+        sections.iter().map(|&i| ring_of(stack, plan, k, i)).collect();
+    let mut loss = 0.0f64;
+    for (n, ring) in tried.iter().enumerate().skip(1) {
+        if let Err(Refusal::FilletTooLarge { radius, greatest, .. }) = ring {
+            loss = loss.max((1.0 - FITTING * greatest / radius) / way(n));
+        }
+    }
+    let of = |(n, ring): (usize, Result<ChamberRing, Refusal>)| {
+        let ring = match ring {
+            Err(Refusal::FilletTooLarge { .. }) | Ok(_) if n > 0 && loss > 0.0 && loss < 1.0 => {
+                ring_with(stack, plan, k, sections[n], 1.0 - loss * way(n))
+            }
+            other => other,
+        };
+        ring.map_err(|refusal| refused(stack, plan, k, sections[n], &refusal))
+    };
+    tried.into_iter().enumerate().map(of).collect()
 }
 
 /// The ring of chamber `k` in section `i`; a refusal has its lengths in space.
 pub(super) fn ring_of(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<ChamberRing, Refusal> {
+    ring_with(stack, plan, k, i, 1.0)
+}
+
+/// The same with fillets at walls of a `share` of their radius.
+fn ring_with(stack: &Stack, plan: &Plan, k: usize, i: usize, share: f64) -> Result<ChamberRing, Refusal> {
     let (section, offset) = (&stack.sections[i], &stack.offsets[i]);
     let v = section.stream.v();
     let (radius, scale) = (plan.chambers[k].fillet_radius.at(v), section.scale(offset.camber.at(0.5).center));
-    let [front, back] = closures(stack, plan, k, i);
+    let [front, back] = closures(stack, plan, k, i, share);
     let request = RingRequest { outline: &offset.outline, camber: &offset.camber, front, back };
     let ring = match k {
         0 if !offset.circle_is_clear() => Err(offset.nose_refusal(radius / scale)),
@@ -236,8 +275,9 @@ pub(super) fn ring_of(stack: &Stack, plan: &Plan, k: usize, i: usize) -> Result<
     ring.map_err(|refusal| refusal.in_space(scale, radius))
 }
 
-/// What closes chamber `k` in section `i` at its front and at its back.
-fn closures(stack: &Stack, plan: &Plan, k: usize, i: usize) -> [ClosureKind; 2] {
+/// What closes chamber `k` in section `i` at its front and at its back, with fillets at walls of a `share` of their
+/// radius.
+fn closures(stack: &Stack, plan: &Plan, k: usize, i: usize, share: f64) -> [ClosureKind; 2] {
     let (section, offset) = (&stack.sections[i], &stack.offsets[i]);
     let radius = plan.chambers[k].fillet_radius.at(section.stream.v());
     let wall = |w: usize| {
@@ -248,7 +288,7 @@ fn closures(stack: &Stack, plan: &Plan, k: usize, i: usize) -> [ClosureKind; 2] 
             direction: line.direction,
             downstream: line.downstream,
             half_thickness: line.half_thickness,
-            fillet: radius / section.scale(line.center),
+            fillet: share * radius / section.scale(line.center),
         })
     };
     let rounded =

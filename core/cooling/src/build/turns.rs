@@ -3,7 +3,7 @@
 use super::chambers::column;
 use super::clearance::ChamberPolygon;
 use super::error::BuildError;
-use super::passages::ring_at;
+use super::passages::rings_beyond;
 use super::probe::Probe;
 use super::sections::Grid;
 use super::spans::TurnSpan;
@@ -35,21 +35,22 @@ pub(super) fn sites<'a>(stack: &'a Stack, plan: &'a Plan) -> Result<Vec<TurnSite
     let mut faults = Vec::new();
     for (t, (turn, span)) in plan.turns.iter().zip(&stack.spans.turns).enumerate() {
         faults.extend(span.check(turn));
-        let mut sections = Vec::new();
-        for i in stack.of_turn(t) {
+        let places = stack.of_turn(t);
+        let rings = [turn.front, turn.front + 1].map(|k| rings_beyond(stack, plan, k, &places));
+        let [Ok(front), Ok(back)] = rings else {
+            faults.extend(rings.into_iter().filter_map(Result::err).map(|fault| *fault));
+            continue;
+        };
+        let mut sections = Vec::with_capacity(places.len());
+        for (i, rings) in places.into_iter().zip(front.into_iter().zip(back)) {
             let (section, line) = (&stack.sections[i], &stack.walls[turn.front][i]);
-            let rings = [turn.front, turn.front + 1].map(|k| ring_at(stack, plan, k, i));
-            let [Ok(front), Ok(back)] = rings else {
-                faults.extend(rings.into_iter().filter_map(Result::err).map(|fault| *fault));
-                continue;
-            };
             sections.push(TurnSection {
                 stream: &section.stream,
                 outline: &stack.offsets[i].outline,
                 camber: &section.camber,
                 position: plan.walls[turn.front].position.at(section.stream.v()),
                 wall: [line.center, line.direction],
-                rings: [front, back],
+                rings: rings.into(),
             });
         }
         sites.push(TurnSite { plan: turn, span, sections });

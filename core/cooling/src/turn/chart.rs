@@ -21,6 +21,8 @@ pub(crate) struct TurnChart {
     layers: Vec<Surface<DVec3>>,
     /// zeta of the sections.
     pub(super) levels: Vec<f64>,
+    /// The range of x that it holds.
+    pub(super) extent: [f64; 2],
 }
 
 /// A point of the map with its derivatives.
@@ -36,11 +38,20 @@ impl TurnChart {
     pub(super) fn new(sections: &[TurnSection<'_>]) -> Result<Result<Self, TurnRefusal>, BuildError> {
         let first = &sections[0];
         let length = first.camber.length() * first.stream.scale(first.wall[0]);
-        let fibres: Vec<Fibres<'_>> = sections.iter().map(|s| Fibres::new(s, length)).collect();
-        let (low, high) = match extent(sections, &fibres) {
-            Some(extent) => extent,
-            None => return Ok(Err(TurnRefusal::Unmapped)),
+        let mut fibres: Vec<Fibres<'_>> = sections.iter().map(|s| Fibres::new(s, length)).collect();
+        // One answer for all sections: the map is smooth from one to the next.
+        for end in [0, 1] {
+            if fibres.iter().any(|f| f.steep(end))
+                && let Err(refusal) = fibres.iter_mut().try_for_each(|f| f.fan_out(end))
+            {
+                return Ok(Err(refusal));
+            }
+        }
+        let Some(extents) = fibres.iter().map(Fibres::extent).collect::<Option<Vec<_>>>() else {
+            return Ok(Err(TurnRefusal::Unmapped));
         };
+        let low = extents.iter().fold(0.0, |low: f64, e| low.min(e[0]));
+        let high = extents.iter().fold(0.0, |high: f64, e| high.max(e[1]));
         let margin = 0.02 * (high - low);
         let xs: Vec<f64> = (0..=FIBRE_GAPS)
             .map(|i| low - margin + (high - low + 2.0 * margin) * i as f64 / FIBRE_GAPS as f64)
@@ -64,7 +75,7 @@ impl TurnChart {
             }
             layers.push(across.loft(&curves)?);
         }
-        Ok(Ok(Self { layers, levels }))
+        Ok(Ok(Self { layers, levels, extent: [low, high] }))
     }
 
     /// The point with coordinates `q` = (x, eta, zeta).
@@ -109,25 +120,6 @@ impl TurnChart {
         }
         None
     }
-}
-
-/// Range of x that the rings of all sections take, their closures included.
-fn extent(sections: &[TurnSection<'_>], fibres: &[Fibres<'_>]) -> Option<(f64, f64)> {
-    const SAMPLES: u32 = 8;
-    let (mut low, mut high) = (0.0f64, 0.0f64);
-    for (section, fibres) in sections.iter().zip(fibres) {
-        for ring in &section.rings {
-            let mut x = 0.0;
-            for segment in &ring.segments {
-                for i in 0..=SAMPLES {
-                    let point = segment.evaluate(section.outline, f64::from(i) / f64::from(SAMPLES)).0;
-                    x = fibres.x_of(point, x)?;
-                    (low, high) = (low.min(x), high.max(x));
-                }
-            }
-        }
-    }
-    Some((low, high))
 }
 
 /// Distance of the sections from the first one, mm, along the wall's mid line.

@@ -120,6 +120,25 @@ pub(super) fn coordinates(
     chart.inverse(point, near)
 }
 
+/// As [`coordinates`], searched for from all over the chamber's half of the box.
+fn anywhere(
+    chart: &TurnChart,
+    section: &TurnSection<'_>,
+    chamber: usize,
+    at: (usize, f64),
+    zeta: f64,
+) -> Option<DVec3> {
+    const STEPS: u32 = 8;
+    let far = chart.extent[chamber];
+    let starts =
+        (0..=STEPS).flat_map(|i| [0.05, 0.5, 0.95].map(|eta| (f64::from(i) / f64::from(STEPS), eta)));
+    starts
+        .filter_map(|(share, eta)| {
+            coordinates(chart, section, chamber, at, DVec3::new(far * share, eta, zeta))
+        })
+        .find(|q| (-0.01..=1.01).contains(&q.y) && q.x * far > 0.0)
+}
+
 /// Segment `k` of a chamber in all sections.
 fn chamber_strip(
     chart: &TurnChart,
@@ -137,7 +156,9 @@ fn chamber_strip(
         let mut near = DVec3::new(side, 0.5, zeta);
         let mut points = Vec::with_capacity(nodes.len());
         for &t in nodes {
-            let Some(q) = coordinates(chart, section, chamber, (k, t), near) else { return Ok(None) };
+            let found = coordinates(chart, section, chamber, (k, t), near)
+                .or_else(|| (t == 0.0).then(|| anywhere(chart, section, chamber, (k, t), zeta)).flatten());
+            let Some(q) = found else { return Ok(None) };
             points.push(q.truncate());
             near = q;
         }

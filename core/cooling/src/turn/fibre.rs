@@ -1,39 +1,11 @@
-//! Fibres of a turn in one section: straight lines across the passage that keep the wall's angle to the camber line.
+//! Fibres of a turn in one section: straight lines across the passage that keep the wall's angle to the camber line, but
+//! for ends of the turn where they have to fan out.
 
+use super::fan::{Fan, Start};
+use super::side::Side;
 use super::{TurnRefusal, TurnSection};
-use crate::section::{Outline, Segment, angle_between};
-use coolinggen_nurbs::ParametricCurve;
+use crate::section::angle_between;
 use glam::DVec2;
-
-/// A side of the shell's inner outline between the chambers' far ends. Round a nose the outline itself turns away; the
-/// side goes on along its tangent there, with a curvature that fades out after [`TURNED`]: twice continuously
-/// differentiable, and the two sides of a nose do not meet before its end, since tangents of a circle do not.
-struct Side<'a> {
-    outline: &'a Outline,
-    low: f64,
-    high: f64,
-}
-
-/// How far a continued side may turn, radians.
-const TURNED: f64 = 0.1;
-
-impl Side<'_> {
-    fn at(&self, u: f64) -> (DVec2, DVec2) {
-        // At its end a side may meet a joint, where derivatives jump: stay on this side of it.
-        let inside = 1e-9 * (self.high - self.low);
-        let near = u.clamp(self.low + inside, self.high - inside);
-        let [p, d, dd] = self.outline.curve().derivatives(near);
-        let e = u - near;
-        if e == 0.0 {
-            return (p, d);
-        }
-        // dd fades as exp(-|e| / reach).
-        let reach = TURNED * d.length_squared() / d.perp_dot(dd).abs();
-        let reach = reach.min(10.0 * (self.high - self.low));
-        let faded = -(-e.abs() / reach).exp_m1() * reach;
-        (p + d * e + dd * (reach * (e.abs() - faded)), d + dd * (faded * e.signum()))
-    }
-}
 
 /// The fibres of one section.
 pub(super) struct Fibres<'a> {
@@ -44,28 +16,108 @@ pub(super) struct Fibres<'a> {
     rate: f64,
     /// Angle from the camber line to the fibres, radians.
     angle: f64,
+    /// Towards the front and the back end.
+    fans: [Option<Fan>; 2],
 }
 
-/// Ends of a side segment.
-fn side_ends(segment: &Segment) -> (f64, f64) {
-    match *segment {
-        Segment::Side { from, to } => (from, to),
-        Segment::Arc { .. } | Segment::Line { .. } => (0.0, 0.0),
-    }
-}
+/// Least sine of the angle at which fibres that keep the wall's angle may cross a side at its end: 25 degrees.
+const LEAST_SINE: f64 = 0.42;
+/// Share of the way to the nearer end of a side on which fibres keep the wall's angle in any case.
+const STRAIGHT: f64 = 0.3;
+/// How far a continued side may turn beside a fan, relative to what is left to turn of the nose between the sides.
+const SHARE_TURNED: f64 = 0.2;
 
 impl<'a> Fibres<'a> {
     /// Fibres of a section; `length` is the length of the camber line, mm, that x is measured by.
     pub(super) fn new(section: &'a TurnSection<'a>, length: f64) -> Self {
         let [front, back] = &section.rings;
         let outline = section.outline;
-        let suction =
-            Side { outline, low: side_ends(&front.segments[0]).0, high: side_ends(&back.segments[0]).1 };
-        let pressure =
-            Side { outline, low: side_ends(&back.segments[4]).0, high: side_ends(&front.segments[4]).1 };
+        let suction = Side::new(outline, &front.segments[0], &back.segments[0]);
+        let pressure = Side::new(outline, &back.segments[4], &front.segments[4]);
         let tangent = section.camber.at(section.position).tangent;
         let angle = angle_between(tangent, section.wall[1]);
-        Self { section, sides: [suction, pressure], rate: 1.0 / length, angle }
+        Self { section, sides: [suction, pressure], rate: 1.0 / length, angle, fans: [None, None] }
+    }
+
+    /// Parameters of the sides at the front (0) or the back end (1): suction side, pressure side.
+    fn side_ends(&self, end: usize) -> [f64; 2] {
+        let [suction, pressure] = &self.sides;
+        if end == 0 { [suction.low, pressure.high] } else { [suction.high, pressure.low] }
+    }
+
+    /// Whether a side runs so steeply at an end that fibres at the wall's angle graze it, or pass it.
+    pub(super) fn steep(&self, end: usize) -> bool {
+        let ends = self.side_ends(end);
+        let across = self.angle.sin().signum();
+        (self.sides.iter().zip(ends).zip([1.0, -1.0])).any(|((side, u), sense)| {
+            let (at, slope) = side.at(u);
+            // The suction side runs with x, the pressure side against it.
+            let sine = |x: f64| slope.normalize().perp_dot(self.line(x).1) * sense * across;
+            !self.x_of(at, 0.0).is_some_and(|x| sine(x) > LEAST_SINE)
+        })
+    }
+
+    /// Lets the fibres towards an end fan out.
+    pub(super) fn fan_out(&mut self, end: usize) -> Result<(), TurnRefusal> {
+        const STEP: f64 = 1e-3;
+        let ends = self.side_ends(end);
+        let slopes = [0, 1].map(|k| self.sides[k].at(ends[k]).1);
+        let turn = 0.5 * angle_between(slopes[0], slopes[1]).abs();
+        for (k, side) in self.sides.iter_mut().enumerate() {
+            let turned = &mut side.turned[usize::from(ends[k] == side.high)];
+            *turned = turned.min(SHARE_TURNED * turn);
+        }
+        // x of the sides' ends, as far as they tell: where a side is steep they need not.
+        let sign = [-1.0, 1.0][end];
+        let far = [0, 1].map(|k| self.chord(self.sides[k].at(ends[k]).0) * sign);
+        let from = STRAIGHT * far[0].min(far[1]) * sign;
+        let none = TurnRefusal::NoSide { x: from };
+        let mut starts = [Start { u: 0.0, rate: 0.0, end: 0.0 }; 2];
+        for (k, side) in self.sides.iter().enumerate() {
+            let near = self.first(side, 0.0).and_then(|u| self.meet(side, 0.0, u)).ok_or(none.clone())?;
+            let at = |x: f64, near: f64| self.meet(side, x, near).ok_or(none.clone());
+            let near = at(0.5 * from, near)?;
+            let u = at(from, near)?;
+            let rate = (at(from + STEP, u)? - at(from - STEP, u)?) / (2.0 * STEP);
+            starts[k] = Start { u, rate, end: ends[k] };
+        }
+        self.fans[end] = Some(Fan::new(from, starts).ok_or(none)?);
+        Ok(())
+    }
+
+    /// About x of a point: its distance from the wall's mid line along the camber line's tangent.
+    fn chord(&self, point: DVec2) -> f64 {
+        let (center, direction) = self.line(0.0);
+        let camber = self.section.camber;
+        let tangent = camber.at(self.section.position).tangent;
+        (point - center).perp_dot(direction) / (tangent.perp_dot(direction) * camber.length() * self.rate)
+    }
+
+    /// Range of x that the rings take, their closures included.
+    pub(super) fn extent(&self) -> Option<[f64; 2]> {
+        const SAMPLES: u32 = 8;
+        let (mut low, mut high) = (0.0f64, 0.0f64);
+        for (end, ring) in self.section.rings.iter().enumerate() {
+            let samples = |k: usize| {
+                let at = move |i: u32| {
+                    ring.segments[k].evaluate(self.section.outline, f64::from(i) / f64::from(SAMPLES)).0
+                };
+                (0..=SAMPLES).map(at)
+            };
+            if let Some(fan) = &self.fans[end] {
+                let closure = if end == 0 { 5..8 } else { 1..4 };
+                let inner: Vec<DVec2> = closure.flat_map(samples).collect();
+                let x = fan.beyond(&self.sides, &inner, self.section.wall[0])?;
+                (low, high) = (low.min(x), high.max(x));
+                continue;
+            }
+            let mut x = 0.0;
+            for point in (0..ring.segments.len()).flat_map(samples) {
+                x = self.x_of(point, x)?;
+                (low, high) = (low.min(x), high.max(x));
+            }
+        }
+        Some([low, high])
     }
 
     /// Point on the camber line and direction of the fibre at x.
@@ -75,7 +127,7 @@ impl<'a> Fibres<'a> {
     }
 
     /// x of the fibre through a point of the section.
-    pub(super) fn x_of(&self, point: DVec2, start: f64) -> Option<f64> {
+    fn x_of(&self, point: DVec2, start: f64) -> Option<f64> {
         let off = |x: f64| {
             let (center, direction) = self.line(x);
             (point - center).perp_dot(direction)
@@ -107,6 +159,10 @@ impl<'a> Fibres<'a> {
             {
                 let mut u = start;
                 for i in order {
+                    if let Some(fan) = self.fans.iter().flatten().find(|fan| fan.holds(xs[i])) {
+                        ends[i][k] = fan.ends(&self.sides, xs[i])[k];
+                        continue;
+                    }
                     u = self.meet(side, xs[i], u).ok_or(no_side(xs[i]))?;
                     ends[i][k] = side.at(u).0;
                 }

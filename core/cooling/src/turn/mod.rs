@@ -12,10 +12,12 @@
 
 mod chart;
 mod closure;
+mod fan;
 mod fibre;
 mod pace;
 mod refusal;
 mod shape;
+mod side;
 mod surfaces;
 mod top;
 

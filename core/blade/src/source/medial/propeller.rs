@@ -2,12 +2,12 @@
 
 use super::assembly::{self, Finish, failed};
 use super::contour::Contour;
-use super::read;
-use super::spec::{ClosingSpec, ProfileSpec, SkinSpec};
+use super::read::{self, Sections};
+use super::spec::{ClosingSpec, ProfileSpec, SideSpec, SkinSpec};
 use crate::blade::Blade;
 use crate::fault::{Fault, Pointer};
 use crate::law::{Law, LawSpec};
-use crate::medial::{Continued, CutOut, Pace, PointedSides, Profile, extended};
+use crate::medial::{Continued, CutOut, Pace, PointedSides, Profile, Side, extended};
 use crate::source::OUTSIDE_CONTOURS;
 use crate::stream::{ContourSpec, StreamSpace};
 use coolinggen_nurbs::{Knots, NurbsError, ParametricSurface};
@@ -57,6 +57,9 @@ pub struct PropellerSource {
     /// Scale of the profile, mm, positive but for v = 1, where it is zero.
     #[schemars(extend("unit" = "mm", "minimum" = 0.0))]
     pub thickness: LawSpec,
+    /// Another profile or thickness for the pressure side alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure_side: Option<SideSpec>,
     /// How the trailing edge is closed: sharp if the profile ends with y = 0, else blunt, unless said otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closing: Option<ClosingSpec>,
@@ -75,9 +78,7 @@ mod tests;
 /// A source that has been read.
 struct Plan<'a> {
     contour: Contour<'a>,
-    thickness: Law,
-    profile: Profile,
-    closing: ClosingSpec,
+    sections: Sections,
     /// Station and span fraction of the tip.
     tip: (f64, f64),
 }
@@ -98,21 +99,11 @@ impl PropellerSource {
     pub(in crate::source) fn blade(&self, space: &StreamSpace) -> Result<Blade, Vec<Fault>> {
         let plan = self.plan(space)?;
         let medial = plan.cut_out()?;
-        let pace = Pace::new(&medial, &plan.profile, 3, PACE).map_err(failed)?;
-        let suction = suction_side(&medial);
-        let notes = vec![
-            format!("cut-out function within {:.1e} of the edges", medial.residual),
-            format!("pace along the profile within {:.1e} of its mean", pace.residual),
-        ];
-        let sides = PointedSides { medial, profile: plan.profile, pace, scale: plan.thickness };
-        let finish = Finish {
-            skin: &self.skin,
-            closing: plan.closing,
-            suction,
-            nose: None,
-            blamed: "thickness",
-            notes,
-        };
+        let mut notes = vec![format!("cut-out function within {:.1e} of the edges", medial.residual)];
+        let closing = plan.sections.closing;
+        let (sides, suction) = plan.sides(medial)?;
+        notes.push(Side::pace_note(&sides.sides));
+        let finish = Finish { skin: &self.skin, closing, suction, nose: None, blamed: "thickness", notes };
         assembly::blade(&sides, finish, space)
     }
 
@@ -129,27 +120,25 @@ impl PropellerSource {
             true,
             &mut faults,
         );
-        let root = Pointer::root();
-        let thickness = read::law(&self.thickness, root.at("thickness"), (0.0, 1e4), "mm", &mut faults);
-        if let Some(law) = &thickness {
-            pointed(law, &mut faults);
-        }
-        let profile = read::profile(&self.profile, &root.at("profile"), &mut faults);
-        let closing = profile.as_ref().map(|p| read::closing(self.closing, [p.tail(); 2], &mut faults));
+        let sections = read::sections(
+            (&self.profile, &self.thickness),
+            self.pressure_side.as_ref(),
+            self.closing,
+            (0.0, 1e4),
+            pointed,
+            &mut faults,
+        );
         self.skin.check(&mut faults);
         let tip = contour.as_ref().and_then(|c| tip(c, &mut faults));
-        let read = contour.zip(thickness).zip(profile.zip(closing)).zip(tip);
-        match read {
-            Some((((contour, thickness), (profile, closing)), tip)) if faults.is_empty() => {
-                Ok(Plan { contour, thickness, profile, closing, tip })
-            }
+        match contour.zip(sections).zip(tip) {
+            Some(((contour, sections), tip)) if faults.is_empty() => Ok(Plan { contour, sections, tip }),
             _ => Err(faults),
         }
     }
 }
 
 /// Refuses a scale that does not end at the tip.
-fn pointed(law: &Law, faults: &mut Vec<Fault>) {
+fn pointed(law: &Law, at: Pointer, faults: &mut Vec<Fault>) {
     let (end, slope) = law.with_slope(1.0 - 1e-9);
     let thin = (0..100).map(|i| f64::from(i) / 100.0).find(|&v| !(law.at(v) > 0.0));
     let message = if law.at(1.0) != 0.0 {
@@ -161,7 +150,7 @@ fn pointed(law: &Law, faults: &mut Vec<Fault>) {
     } else {
         return;
     };
-    faults.push(Fault::new("/thickness", "tip", message).value(law.at(1.0)).unit("mm"));
+    faults.push(Fault::new(at, "tip", message).value(law.at(1.0)).unit("mm"));
 }
 
 /// Station and span fraction of the point that both edges end in.
@@ -198,6 +187,14 @@ fn tip(contour: &Contour<'_>, faults: &mut Vec<Fault>) -> Option<(f64, f64)> {
 }
 
 impl Plan<'_> {
+    /// The sides, and which of them is the suction side.
+    fn sides(&self, medial: CutOut) -> Result<(PointedSides, usize), Vec<Fault>> {
+        let suction = suction_side(&medial);
+        let pace = |profile: &Profile| Pace::new(&medial, profile, 3, PACE);
+        let sides = Side::both(self.sections.sides.clone(), suction, pace).map_err(failed)?;
+        Ok((PointedSides { medial, sides }, suction))
+    }
+
     /// The medial surface: extended, and cut out.
     fn cut_out(&self) -> Result<CutOut, Vec<Fault>> {
         let (tip_station, tip_fraction) = self.tip;

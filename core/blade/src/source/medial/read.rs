@@ -1,6 +1,6 @@
 //! Reading what the medial sources have in common: laws within limits, profiles.
 
-use super::spec::{ClosingSpec, ProfileSpec};
+use super::spec::{ClosingSpec, ProfileSpec, SideSpec};
 use crate::fault::{Fault, Pointer};
 use crate::law::{Law, LawSpec};
 use crate::medial::{Profile, ProfileFlaw};
@@ -61,6 +61,47 @@ pub(super) fn profile(spec: &ProfileSpec, at: &Pointer, faults: &mut Vec<Fault>)
         }
     };
     Profile::bezier(&points).map_err(|flaw| faults.push(explain(flaw))).ok()
+}
+
+/// What stands on both sides.
+pub(super) struct Sections {
+    /// Profile and scale of suction and pressure side.
+    pub(super) sides: [(Profile, Law); 2],
+    pub(super) closing: ClosingSpec,
+}
+
+/// Reads profile and scale (mm, within `limits` and as `fits` wants them) of both sides, and how they are closed.
+pub(super) fn sections(
+    (profile, thickness): (&ProfileSpec, &LawSpec),
+    pressure_side: Option<&SideSpec>,
+    closing_asked: Option<ClosingSpec>,
+    limits: (f64, f64),
+    fits: impl Fn(&Law, Pointer, &mut Vec<Fault>),
+    faults: &mut Vec<Fault>,
+) -> Option<Sections> {
+    let before = faults.len();
+    let root = Pointer::root();
+    let mut scale = |spec: &LawSpec, at: Pointer| {
+        let read = law(spec, at.clone(), limits, "mm", faults)?;
+        fits(&read, at, faults);
+        Some(read)
+    };
+    let at = root.at("pressure_side");
+    let suction_scale = scale(thickness, root.at("thickness"));
+    let other_scale = match pressure_side.and_then(|s| s.thickness.as_ref()) {
+        Some(spec) => scale(spec, at.at("thickness")),
+        None => suction_scale.clone(),
+    };
+    let suction_profile = self::profile(profile, &root.at("profile"), faults);
+    let other_profile = match pressure_side.and_then(|s| s.profile.as_ref()) {
+        Some(spec) => self::profile(spec, &at.at("profile"), faults),
+        None => suction_profile.clone(),
+    };
+    let sides = [suction_profile?, other_profile?];
+    let closing = closing(closing_asked, [sides[0].tail(), sides[1].tail()], faults);
+    let [suction, other] = sides;
+    let sides = [(suction, suction_scale?), (other, other_scale?)];
+    (faults.len() == before).then_some(Sections { sides, closing })
 }
 
 /// How the trailing edge is closed where the profiles of the sides end with y = `tails`.

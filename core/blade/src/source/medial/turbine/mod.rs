@@ -4,12 +4,12 @@ mod plan;
 
 use super::assembly::{self, Finish};
 use super::contour::Contour;
-use super::read;
+use super::read::{self, Sections};
 use super::spec::{ClosingSpec, ProfileSpec, SideSpec, SkinSpec};
 use crate::blade::Blade;
-use crate::fault::{Fault, Pointer};
-use crate::law::{Law, LawSpec};
-use crate::medial::Profile;
+use crate::fault::Fault;
+use crate::law::LawSpec;
+use crate::medial::Side;
 use crate::stream::{ContourSpec, StreamSpace};
 use coolinggen_nurbs::ParametricCurve;
 use schemars::JsonSchema;
@@ -75,9 +75,7 @@ fn third() -> LawSpec {
 /// A source that has been read.
 struct Plan<'a> {
     contour: Contour<'a>,
-    /// Profile and scale of suction and pressure side.
-    sides: [(Profile, Law); 2],
-    closing: ClosingSpec,
+    sections: Sections,
 }
 
 impl TurbineSource {
@@ -101,11 +99,11 @@ impl TurbineSource {
                 sides.medial.angle_residual.to_degrees()
             ),
             format!("normals within {:.1e}", sides.medial.normal_residual),
-            format!("pace along the profile within {:.1e} of its mean", sides.sides[0].pace.residual),
+            Side::pace_note(&sides.sides),
         ];
         let finish = Finish {
             skin: &self.skin,
-            closing: plan.closing,
+            closing: plan.sections.closing,
             suction,
             nose: Some(nose),
             blamed: "thickness",
@@ -127,34 +125,18 @@ impl TurbineSource {
             false,
             &mut faults,
         );
-        let thick = (1e-3, 1e4);
-        let root = Pointer::root();
-        let mut law = |spec, at| read::law(spec, at, thick, "mm", &mut faults);
-        let thickness = law(&self.thickness, root.at("thickness"));
-        let other = self.pressure_side.clone().unwrap_or_default();
-        let other_at = root.at("pressure_side");
-        let other_thickness = other.thickness.as_ref().map(|spec| law(spec, other_at.at("thickness")));
-        let profile = read::profile(&self.profile, &root.at("profile"), &mut faults);
-        let at = other_at.at("profile");
-        let other_profile = other.profile.as_ref().map(|spec| read::profile(spec, &at, &mut faults));
-        self.skin.check(&mut faults);
-        let closing = profile.as_ref().map(|p| {
-            let other = other_profile.as_ref().and_then(Option::as_ref).unwrap_or(p);
-            read::closing(self.closing, [p.tail(), other.tail()], &mut faults)
-        });
-        if !faults.is_empty() {
-            return Err(faults);
-        }
-        let missing = || vec![Fault::new("", "missing", "the source could not be read")];
-        let (profile, thickness) = profile.zip(thickness).ok_or_else(missing)?;
-        let pressure = (
-            other_profile.flatten().unwrap_or_else(|| profile.clone()),
-            other_thickness.flatten().unwrap_or_else(|| thickness.clone()),
+        let sections = read::sections(
+            (&self.profile, &self.thickness),
+            self.pressure_side.as_ref(),
+            self.closing,
+            (1e-3, 1e4),
+            |_, _, _| (),
+            &mut faults,
         );
-        Ok(Plan {
-            contour: contour.ok_or_else(missing)?,
-            sides: [(profile, thickness), pressure],
-            closing: closing.ok_or_else(missing)?,
-        })
+        self.skin.check(&mut faults);
+        match contour.zip(sections) {
+            Some((contour, sections)) if faults.is_empty() => Ok(Plan { contour, sections }),
+            _ => Err(faults),
+        }
     }
 }

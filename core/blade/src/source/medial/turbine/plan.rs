@@ -2,7 +2,7 @@
 
 use super::Plan;
 use crate::fault::Fault;
-use crate::medial::{MedialSurface, Pace, Side, Sides, Streamlines, unit_normal};
+use crate::medial::{MedialSurface, Pace, Profile, Side, Sides, Streamlines, unit_normal};
 use crate::source::medial::assembly::failed;
 use coolinggen_nurbs::{Knots, NurbsError, ParametricSurface};
 
@@ -43,19 +43,9 @@ impl Plan<'_> {
     /// The sides, and which of them is the suction side: the one that the medial surface bends away from.
     pub(super) fn sides(&self, medial: MedialSurface) -> Result<(Sides, usize), Vec<Fault>> {
         let suction = suction_side(&medial);
-        let side = |k: usize| -> Result<Side, NurbsError> {
-            let (profile, scale) = self.sides[usize::from(k != suction)].clone();
-            let pace = Pace::new(&medial.surface, &profile, 3, PACE)?;
-            Ok(Side { profile, pace, scale })
-        };
-        let first = side(0).map_err(failed)?;
-        let second = if self.sides[0].0 == self.sides[1].0 {
-            let (profile, scale) = self.sides[usize::from(1 != suction)].clone();
-            Side { profile, scale, pace: first.pace.clone() }
-        } else {
-            side(1).map_err(failed)?
-        };
-        Ok((Sides { medial, sides: [first, second] }, suction))
+        let pace = |profile: &Profile| Pace::new(&medial.surface, profile, 3, PACE);
+        let sides = Side::both(self.sections.sides.clone(), suction, pace).map_err(failed)?;
+        Ok((Sides { medial, sides }, suction))
     }
 }
 
