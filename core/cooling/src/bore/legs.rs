@@ -68,7 +68,8 @@ impl Walk<'_, '_> {
             walk.step(t, depth)
         };
         let near = self.hit.at + self.hit.at_slope * (t - self.at);
-        let Some(hit) = self.target.meet(self.leg.face, &ray, near, self.hit.along) else {
+        let meet = |near| self.target.meet(self.leg.face, &ray, near, self.hit.along);
+        let Some(hit) = meet(near).or_else(|| meet(self.hit.at)) else {
             return halves(self, BoreError::Misses);
         };
         if self.target.holds(self.leg.face, hit.at) {

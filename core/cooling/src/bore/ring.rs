@@ -67,7 +67,10 @@ impl Stretch<'_, '_> {
                     (last.at + (last.at_slope + turn * (0.5 * step)) * step, last.along)
                 }
             };
-            let hit = self.target.meet(self.face, &(self.rays)(t), near, along).ok_or(BoreError::Misses)?;
+            let meet = |near| self.target.meet(self.face, &(self.rays)(t), near, along);
+            // At grazing angles it may lead astray.
+            let again = || hits.last().and_then(|last| meet(last.at));
+            let hit = meet(near).or_else(again).ok_or(BoreError::Misses)?;
             hits.push(hit);
         }
         let points: Vec<DVec3> = hits.iter().map(|h| h.point).collect();
