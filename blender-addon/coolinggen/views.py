@@ -10,7 +10,7 @@ from . import blades
 LOOKS = [
     ("WHOLE", "Whole", "All solids"),
     ("CUT", "Cut open", "All solids, cut through by a plane that can be moved"),
-    ("GLASS", "Glass", "The metal see-through"),
+    ("GLASS", "Glass", "The metal see-through, the walls of its passages not"),
     ("COOLANT", "Coolant", "The coolant alone"),
 ]
 
@@ -18,6 +18,8 @@ LOOKS = [
 CUT = "CoolingGen cut"
 #: The object's property that marks the body that cuts.
 CUTTER = "coolinggen_cutter"
+#: Opacity of glassy metal.
+GLASSY = 0.15
 #: The material's property with its opacity when it is not glass.
 OPAQUE = "coolinggen_alpha"
 
@@ -32,14 +34,14 @@ def show(collection, look: str) -> None:
     }
     for name, found in solids.items():
         inside = _is_coolant(name)
-        hidden = (look == "COOLANT" and not inside) or (look == "CUT" and inside)
+        # Cut open and in glass the walls of the passages are seen, which the coolant would hide.
+        hidden = inside if look in ("CUT", "GLASS") else look == "COOLANT" and not inside
         found.hide_set(hidden)
         found.hide_render = hidden
         _cut(found, cutter)
         if not inside:
             for layer, material in zip(blades.layers(found.data), found.data.materials, strict=False):
-                # Where metal and coolant meet, what is seen is the coolant.
-                _glass(material, look == "GLASS", 0.0 if layer in wetted else 0.15)
+                _glass(material, look == "GLASS" and layer not in wetted)
 
 
 def _is_coolant(solid: str) -> bool:
@@ -86,7 +88,7 @@ def _cut(solid, cutter) -> None:
     modifier.solver = "MANIFOLD" if "MANIFOLD" in solvers else "EXACT"
 
 
-def _glass(material, on: bool, opacity: float) -> None:
+def _glass(material, on: bool) -> None:
     if material is None or not material.use_nodes:
         return
     shader = material.node_tree.nodes.get("Principled BSDF")
@@ -95,7 +97,7 @@ def _glass(material, on: bool, opacity: float) -> None:
     alpha = shader.inputs["Alpha"]
     if on:
         material[OPAQUE] = alpha.default_value
-        alpha.default_value = opacity
+        alpha.default_value = GLASSY
     else:
         alpha.default_value = material[OPAQUE]
         del material[OPAQUE]

@@ -3,7 +3,9 @@
 mod support;
 
 use coolinggen_brep::{Model, Plane, Style, SurfaceGeometry};
-use coolinggen_exporters::{ExportError, TessellationOptions, tessellate};
+use coolinggen_exporters::{
+    ExportError, KeptMeshes, Tessellation, TessellationOptions, tessellate, tessellate_again,
+};
 use glam::DVec3;
 use proptest::prelude::*;
 use support::{closed, mesh, surfaces};
@@ -30,6 +32,23 @@ fn meshes_are_closed_and_keep_the_chord() {
                 // A chord turns by half the angle at either end; twist adds to that.
                 assert!(found.cosine > angle_deg.to_radians().cos(), "{at}");
             }
+        }
+    }
+}
+
+/// Two borders that run side by side, nearer than chords are to them, are cut so finely that no triangle between them
+/// turns over.
+#[test]
+fn borders_near_each_other_keep_their_order() {
+    for gap in [1e-4, 3e-4, 1e-3, 5e-3, 0.02, 0.3] {
+        let model = surfaces::window_near_border(gap);
+        for (chord_mm, angle_deg) in [(0.1, 30.0), (0.02, 15.0)] {
+            let t = tessellate(&model, &options(chord_mm, angle_deg)).unwrap();
+            let found = &mesh::inspect(&model, &t)[0];
+            let at = format!("gap {gap} at {chord_mm}: {found:?}");
+            assert_eq!(t.coarse, [], "{at}");
+            assert!(found.distance <= chord_mm && found.cosine > angle_deg.to_radians().cos(), "{at}");
+            assert!(found.triangles < 400, "{at}");
         }
     }
 }
@@ -126,11 +145,37 @@ fn threads_do_not_matter() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| tessellate(&model, &options(0.02, 15.0)).unwrap())
     };
-    let (one, four) = (run(1), run(4));
-    assert_eq!(one.points, four.points);
-    for (a, b) in one.faces.iter().zip(&four.faces) {
+    same(&run(1), &run(4));
+}
+
+fn same(a: &Tessellation, b: &Tessellation) {
+    assert_eq!(a.points, b.points);
+    assert_eq!(a.edges, b.edges);
+    assert_eq!(a.coarse, b.coarse);
+    assert_eq!(a.faces.len(), b.faces.len());
+    for (a, b) in a.faces.iter().zip(&b.faces) {
+        assert_eq!(a.points, b.points);
+        assert_eq!(a.parameters, b.parameters);
         assert_eq!(a.triangles, b.triangles);
         assert_eq!(a.normals, b.normals);
+    }
+}
+
+/// Also where segments of edges are halved, for tilted triangles in the first rounds and for turned ones in the others.
+#[test]
+fn what_is_kept_does_not_matter() {
+    let mut kept = KeptMeshes::default();
+    let mut models: Vec<Model> = [1e-4, 3e-4, 1e-4, 1e-3, 5e-3].map(surfaces::window_near_border).into();
+    models.push(support::perforated::sector(3, 4));
+    models.push(surfaces::window_near_border(3e-4));
+    for model in models {
+        for o in [options(0.1, 30.0), options(0.02, 15.0), options(0.1, 30.0)] {
+            let cold = tessellate(&model, &o).unwrap();
+            same(&tessellate_again(&model, &o, &mut kept, &|| false).unwrap(), &cold);
+            let made = kept.made();
+            same(&tessellate_again(&model, &o, &mut kept, &|| false).unwrap(), &cold);
+            assert_eq!(kept.made(), made);
+        }
     }
 }
 

@@ -100,8 +100,10 @@ def test_faces_have_names(rotor):
     areas = np.empty(len(metal.data.polygons), np.float32)
     metal.data.polygons.foreach_get("area", areas)
     assert len(told) == len(names)
+    # A triangle's normal is within the angle of the surface's: its area is that much less at most.
+    within = 1 - np.cos(np.radians(rotor.coolinggen.angle_deg))
     for k, name in enumerate(names):
-        assert areas[number == k].sum() * 1e6 == pytest.approx(told[name], rel=0.02), name
+        assert areas[number == k].sum() * 1e6 == pytest.approx(told[name], rel=within), name
 
 
 def test_faces_are_selected_by_name(rotor):
@@ -122,7 +124,7 @@ def test_looks(rotor):
     for look in ("CUT", "GLASS", "COOLANT", "WHOLE"):
         assert bpy.ops.coolinggen.look(look=look) == {"FINISHED"}
         assert found["metal"].hide_get() == (look == "COOLANT")
-        assert found["coolant/leading"].hide_get() == (look == "CUT")
+        assert found["coolant/leading"].hide_get() == (look in ("CUT", "GLASS"))
         if look == "CUT":
             graph = bpy.context.evaluated_depsgraph_get()
             cut = found["metal"].evaluated_get(graph).to_mesh()

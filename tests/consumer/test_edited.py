@@ -1,9 +1,10 @@
-"""Samples with a change, seen by OpenCASCADE and as meshes."""
+"""Samples with a change, seen by OpenCASCADE, FreeCAD and Gmsh, and as meshes."""
 
 from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,8 +12,10 @@ import pytest
 import cli
 import close
 import edits
+import measure
 import meshes
 import topology
+import witness
 
 SLOTS = {"name": "te", "span": [0.05, 0.9], "count": 3, "height": 2, "width": 0.4, "corner_radius": 0.1}
 
@@ -85,6 +88,22 @@ def test_genus_of_solids(asked, built, products):
         assert genus == asked.genus.get(product.name, genus), product.name
 
 
+def steps_in_time(built) -> list[Path]:
+    """The files of its parts, unless what is asked of them takes minutes."""
+    steps = [built.file(part, "step") for part in built.parts]
+    if any(map(witness.too_great, steps)):
+        witness.leave_to_long(built.name)
+    return steps
+
+
+def test_volumes(built, products):
+    steps_in_time(built)
+    for product in products:
+        expected = built.report["solids"][product.name]["volume_mm3"]
+        for rule in (measure.volume_fixed, measure.volume_adaptive, measure.volume_mesh):
+            close.assert_volume(rule(product.shape), expected, f"{product.name} by {rule.__name__}")
+
+
 def test_meshes_are_closed_and_have_the_genus(asked, built):
     for node in meshes.read_glb(built.file("assembly", "glb")):
         assert meshes.sides_not_paired(node.regions) == meshes.degenerate(node.regions) == 0, node.name
@@ -97,3 +116,23 @@ def test_meshes_are_closed_and_have_the_genus(asked, built):
             assert meshes.sides_not_paired(regions) == meshes.degenerate(regions) == 0, f"{part} {kind}"
             assert meshes.normals_turned_away(regions) == 0, f"{part} {kind}"
             assert meshes.genus(regions) == built.genus(part), f"{part} {kind}"
+
+
+def test_bop_check_is_clean(built, tmp_path):
+    steps = steps_in_time(built)
+    found = witness.freecad(steps, tmp_path)
+    for step in steps:
+        for thing in found.of(step)["objects"]:
+            assert thing["valid"] and thing["closed"] and not thing["bop"], (
+                f"{thing['label']}: {thing['bop']}"
+            )
+
+
+def test_gmsh_fills_the_solids(built, tmp_path):
+    steps = steps_in_time(built)
+    found = witness.gmsh(steps, tmp_path)
+    for step in steps:
+        fill = found.of(step)["fill"]
+        assert "error" not in fill, f"{step.name}: {fill['error']}"
+        assert fill["tetrahedra"] > 0, step.name
+        assert fill["inverted"] == fill["unmatched"] == fill["crowded"] == 0, f"{step.name}: {fill}"

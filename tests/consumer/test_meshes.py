@@ -38,6 +38,14 @@ def test_closed(model, exported):
         assert meshes.degenerate(regions) == 0, what
 
 
+def test_genus(model, exported, assembly):
+    for what, regions in exported.items():
+        if what[1] != "glb":
+            assert meshes.genus(regions) == model.genus(what[0]), what
+    for node in assembly:
+        assert meshes.genus(node.regions) == model.report["genus"][node.name]["expected"], node.name
+
+
 def test_volume_is_right_and_outward(model, exported):
     for what, regions in exported.items():
         off = abs(meshes.volume(regions) - model.total(what[0], "volume_mm3"))

@@ -61,7 +61,7 @@ pub(crate) struct GenerateOptions {
     /// Greatest distance between mesh and surface, mm
     #[arg(long, default_value_t = 0.02, value_parser = positive)]
     pub(crate) chord: f64,
-    /// Greatest angle between neighbouring mesh normals, degrees
+    /// Greatest angle between the normals of a triangle and of the surface at its corners, degrees
     #[arg(long, default_value_t = 15.0, value_parser = positive)]
     pub(crate) angle: f64,
     /// Print the report, or the faults, as JSON

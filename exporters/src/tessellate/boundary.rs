@@ -16,6 +16,8 @@ pub(crate) struct Node {
     pub(crate) uv: DVec2,
     /// Edge of the model that the segment **from** this node belongs to.
     pub(crate) edge: usize,
+    /// Number of that segment along the edge.
+    pub(crate) segment: usize,
 }
 
 /// Values of one parameter that straight borders run at, so that rounding does not make them wavy.
@@ -109,10 +111,12 @@ pub(crate) fn polygons(
                         p[axis] = level;
                     }
                 }
-                polygon.push(Node { point: ids[at(0)], uv: p, edge: usize::MAX });
+                polygon.push(Node { point: ids[at(0)], uv: p, edge: usize::MAX, segment: 0 });
             }
-            polygon.push(Node { point: ids[at(0)], uv: corner, edge: e });
-            polygon.extend((1..steps).map(|k| Node { point: ids[at(k)], uv: uv(k), edge: e }));
+            let node =
+                |k: usize, uv: DVec2| Node { point: ids[at(k)], uv, edge: e, segment: at(k).min(at(k + 1)) };
+            polygon.push(node(0, corner));
+            polygon.extend((1..steps).map(|k| node(k, uv(k))));
         }
         out.push(polygon);
     }

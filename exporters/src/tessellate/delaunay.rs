@@ -11,6 +11,10 @@ use std::collections::HashSet;
 
 /// Rounds of refinement; three or four are the rule.
 const ROUNDS: usize = 20;
+/// Rounds after which a triangle that still stands askew is the border's fault, not the grid's.
+const PATIENCE: usize = 2;
+/// Rounds in which tilted triangles are divided; those that are turned over always are.
+const TILTED: usize = 6;
 /// Density of the first grid, as a share of what curvature at its worst asks for.
 const START: f64 = 0.5;
 /// Refinement bounds the turn of the normal over a triangle's side at this many times the angle asked for, which is
@@ -37,8 +41,8 @@ type Cdt = ConstrainedDelaunayTriangulation<Vertex>;
 
 /// Why a border cannot be triangulated.
 pub(crate) enum Unfit {
-    /// Segments, by their first nodes, that cross others: finer ones may not.
-    Crossing(Vec<u32>),
+    /// Segments, by their first nodes, that cross others or beside which triangles stand askew: finer ones may not.
+    Coarse(Vec<u32>),
     /// Two nodes lie in one place.
     Touching,
     /// It was told to stop.
@@ -48,12 +52,14 @@ pub(crate) enum Unfit {
 /// Fills the patch and says whether its triangles then keep the tolerances.
 ///
 /// # Errors
-/// [`Unfit`] for a border that crosses or touches itself.
+/// [`Unfit`] for a border that crosses or touches itself, or beside which the cosine between a triangle's normal and the
+/// surface's stays at `least` or below.
 pub(crate) fn fill(
     patch: &mut Patch,
     surface: &SurfaceGeometry,
     field: &Field,
     o: &TessellationOptions,
+    least: Option<f64>,
     stop: &dyn Fn() -> bool,
 ) -> Result<bool, Unfit> {
     patch.clear();
@@ -65,14 +71,19 @@ pub(crate) fn fill(
     let map = Map::new(patch, field);
     let mut cdt = triangulate(patch, &map)?;
     let mut verified: HashSet<[u32; 3]> = HashSet::new();
-    let limits =
-        Limits { turn: (DIAGONAL * o.angle()).cos(), shortest: 0.1 * o.chord_mm, close: 0.6 * o.chord_mm };
-    for _ in 0..ROUNDS {
+    let limits = Limits {
+        turn: (DIAGONAL * o.angle()).cos(),
+        tilt: o.angle().cos(),
+        shortest: 0.1 * o.chord_mm,
+        tiny: o.chord_mm,
+        close: 0.6 * o.chord_mm,
+    };
+    for round in 0..ROUNDS {
         if stop() {
             return Err(Unfit::Stopped);
         }
         patch.triangles = inside(&cdt);
-        patch.exchange_diagonals();
+        patch.exchange_diagonals(limits.tilt);
         let mut faults: Vec<Fault> = Vec::new();
         patch.inspect(
             surface,
@@ -89,13 +100,23 @@ pub(crate) fn fill(
             verified.remove(&sorted(patch.triangles[f.triangle]));
         }
         if !matches!(surface, SurfaceGeometry::Plane(_)) {
-            let turned = patch.triangles.iter().enumerate();
-            let turned = turned.filter(|&(_, &t)| !patch.is_upright(t));
-            faults.extend(turned.map(|(triangle, &t)| Fault {
-                distance: f64::INFINITY,
-                uv: t.iter().map(|&i| patch.uv[i as usize]).sum::<DVec2>() / 3.0,
-                triangle,
-            }));
+            let askew: Vec<usize> =
+                (0..patch.triangles.len()).filter(|&i| patch.is_askew(patch.triangles[i], limits)).collect();
+            if let Some(least) = least.filter(|_| round >= PATIENCE) {
+                let near = |&i: &usize| !(patch.uprightness(patch.triangles[i]) > least);
+                let bad: Vec<usize> = askew.iter().copied().filter(near).collect();
+                let segments = patch.long_segments(&bad, round >= 2 * PATIENCE, o.chord_mm);
+                if !segments.is_empty() {
+                    return Err(Unfit::Coarse(segments));
+                }
+            }
+            // At a pole no number of nodes brings triangles to a normal that the surface does not have.
+            let hopeless = |&i: &usize| round >= TILTED && patch.uprightness(patch.triangles[i]) > 0.0;
+            if faults.is_empty() && !askew.is_empty() && askew.iter().all(hopeless) {
+                break;
+            }
+            let worth = askew.into_iter().filter(|i| !hopeless(i));
+            faults.extend(worth.map(|triangle| patch.middle(triangle)));
         }
         if faults.is_empty() {
             return Ok(true);
@@ -105,7 +126,7 @@ pub(crate) fn fill(
         }
     }
     patch.triangles = inside(&cdt);
-    patch.exchange_diagonals();
+    patch.exchange_diagonals(limits.tilt);
     Ok(false)
 }
 
@@ -208,7 +229,7 @@ fn triangulate(patch: &Patch, map: &Map) -> Result<Cdt, Unfit> {
     }
     crossing.sort_unstable();
     crossing.dedup();
-    Err(Unfit::Crossing(crossing))
+    Err(Unfit::Coarse(crossing))
 }
 
 /// Triangles inside the border: an odd number of border crossings away from the outside.

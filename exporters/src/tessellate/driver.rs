@@ -11,11 +11,14 @@ use coolinggen_brep::{Coedge, Edge, Face, FaceId, Key, Memo, Model};
 use coolinggen_nurbs::ParametricCurve;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Rounds in which edges are cut finer where a face's border polygon crosses itself; each is a quarter of the
-/// sagitta of the last.
-const ROUNDS: usize = 10;
+/// Rounds in which segments of edges are halved where a face's border crosses itself or comes too near to itself; each is
+/// a quarter of the sagitta of the last.
+const ROUNDS: usize = 12;
+/// Rounds in which that is done for tilted triangles, too, not only for those that are turned over.
+const TILTED: usize = 4;
 /// Cells of a face's grid, or segments of an edge, beyond which tolerances are taken for a mistake.
 const MOST_CELLS: f64 = 2e7;
 
@@ -77,52 +80,69 @@ fn tessellated(
             uses[coedge.edge.0].push((coedge, &*prepared.field));
         }
     }
-    let mut least = vec![1; model.edges.len()];
-    let mut round = 0;
-    loop {
-        let cut = Cut::new(model, &uses, &least, options, &mut kept.cuts);
+    let mut cut = Cut::new(model, &uses, options, &mut kept.cuts);
+    let mut done: Vec<Option<Arc<KeptFill>>> = vec![None; model.faces.len()];
+    for round in 0.. {
         if stop() {
             return Err(ExportError::Stopped);
         }
-        let key = |(face, prepared): (&Face, &Prepared)| face_key(face, prepared, &cut, options);
-        let keys: Vec<Key> = model.faces.par_iter().zip(&faces).map(key).collect();
+        // A pole that no refinement straightens up must not cost all rounds.
+        let least = match round {
+            ..TILTED => Some(options.angle().cos()),
+            TILTED..ROUNDS => Some(0.0),
+            _ => None,
+        };
+        let open: Vec<usize> = (0..done.len()).filter(|&i| done[i].is_none()).collect();
+        let key = |&i: &usize| face_key(&model.faces[i], &faces[i], &cut, options, least);
+        let keys: Vec<Key> = open.par_iter().map(key).collect();
         let known: Vec<Option<Arc<KeptFill>>> = keys.iter().map(|key| kept.fills.find(key)).collect();
-        let fill = |((face, prepared), known): ((&Face, &Prepared), &Option<Arc<KeptFill>>)| match known {
+        let fill = |(&i, known): (&usize, &Option<Arc<KeptFill>>)| match known {
             Some(_) => None,
             None if stop() => Some(Err(Refusal::Stopped)),
-            None => Some(fill(face, prepared, &cut, options, stop)),
+            None => Some(fill(&model.faces[i], &faces[i], &cut, options, least, stop)),
         };
-        let filled: Vec<Option<Result<KeptFill, Refusal>>> =
-            model.faces.par_iter().zip(&faces).zip(&known).map(fill).collect();
-        let mut crossing: Vec<usize> = Vec::new();
-        let mut done = Vec::with_capacity(filled.len());
-        for (((face, key), known), filled) in model.faces.iter().zip(keys).zip(known).zip(filled) {
+        let filled: Vec<Option<Result<KeptFill, Refusal>>> = open.par_iter().zip(&known).map(fill).collect();
+        let mut wanted: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+        for (((&i, key), known), filled) in open.iter().zip(keys).zip(known).zip(filled) {
             match filled {
-                None => done.extend(known),
+                None => done[i] = known,
                 Some(Ok(filled)) => {
                     let filled = Arc::new(filled);
                     kept.fills.keep(key, Arc::clone(&filled));
-                    done.push(filled);
+                    done[i] = Some(filled);
                 }
-                Some(Err(Refusal::Crossing(edges))) if round < ROUNDS => crossing.extend(edges),
+                Some(Err(Refusal::Coarse(segments))) if round < ROUNDS => {
+                    for (edge, k) in segments {
+                        wanted.entry(edge).or_default().insert(k);
+                    }
+                }
                 Some(Err(Refusal::Stopped)) => return Err(ExportError::Stopped),
-                Some(Err(_)) => return Err(ExportError::Untriangulable { face: face.name.clone() }),
+                Some(Err(_)) => {
+                    return Err(ExportError::Untriangulable { face: model.faces[i].name.clone() });
+                }
             }
         }
-        if done.len() == model.faces.len() {
-            return assemble(model, cut, &done);
+        if wanted.is_empty() {
+            break;
         }
-        for e in crossing {
-            least[e] = 2 * (cut.parameters[e].len() - 1);
+        for (&edge, segments) in &wanted {
+            cut.halve(model, edge, segments);
         }
-        round += 1;
+        for (face, filled) in model.faces.iter().zip(&mut done) {
+            if face.loops.iter().flat_map(|l| &l.coedges).any(|c| wanted.contains_key(&c.edge.0)) {
+                *filled = None;
+            }
+        }
     }
+    let done: Vec<Arc<KeptFill>> = done.into_iter().flatten().collect();
+    assemble(model, cut, &done)
 }
 
 /// Why a face has no triangles yet.
 enum Refusal {
-    /// Border segments of these edges cross.
-    Crossing(Vec<usize>),
+    /// These segments are too long, as edges and numbers along them: they cross others, or triangles beside them turn
+    /// over.
+    Coarse(Vec<(usize, usize)>),
     /// The border meets itself in a node.
     Touching,
     /// It was told to stop.
@@ -152,17 +172,16 @@ impl Cut {
     fn new(
         model: &Model,
         uses: &[Vec<(&Coedge, &NumberedField)>],
-        least: &[usize],
         o: &TessellationOptions,
         kept: &mut Memo<Arc<(Vec<f64>, Vec<DVec3>)>>,
     ) -> Self {
-        let key = |(i, edge): (usize, &Edge)| edge_key(edge, &uses[i], least[i], o);
+        let key = |(i, edge): (usize, &Edge)| edge_key(edge, &uses[i], o);
         let keys: Vec<Key> = model.edges.par_iter().enumerate().map(key).collect();
         let known: Vec<_> = keys.iter().map(|key| kept.find(key)).collect();
         let divide = |((i, edge), known): ((usize, &Edge), &Option<_>)| {
             known.clone().unwrap_or_else(|| {
                 let fields: Vec<(&Coedge, &Field)> = uses[i].iter().map(|(c, f)| (*c, &f.field)).collect();
-                let t = edges::divide(edge, &fields, least[i], o);
+                let t = edges::divide(edge, &fields, o);
                 let inner: Vec<DVec3> = t[1..t.len() - 1].iter().map(|&t| edge.curve.point(t)).collect();
                 Arc::new((t, inner))
             })
@@ -186,6 +205,17 @@ impl Cut {
         }
         out
     }
+
+    /// Cuts these segments of an edge in two, in the middle of their parameters.
+    fn halve(&mut self, model: &Model, edge: usize, segments: &BTreeSet<usize>) {
+        let (parameters, polyline) = (&mut self.parameters[edge], &mut self.polylines[edge]);
+        for &k in segments.iter().rev() {
+            let middle = 0.5 * (parameters[k] + parameters[k + 1]);
+            parameters.insert(k + 1, middle);
+            polyline.insert(k + 1, self.points.len() as u32);
+            self.points.push(model.edges[edge].curve.point(middle));
+        }
+    }
 }
 
 fn parameter_box(face: &Face) -> (DVec2, DVec2) {
@@ -197,12 +227,15 @@ fn parameter_box(face: &Face) -> (DVec2, DVec2) {
     (low, high)
 }
 
-/// Triangulates a face; or names the edges whose segments cross.
+/// Triangulates a face; or names the segments of edges that are too long for it: those that cross others, and those beside
+/// which the cosine between a triangle's normal and the surface's is no more than `least`. Of two borders that run side by
+/// side, nearer to each other than chords are to them, the chords may lie the other way round.
 fn fill(
     face: &Face,
     prepared: &Prepared,
     cut: &Cut,
     o: &TessellationOptions,
+    least: Option<f64>,
     stop: &dyn Fn() -> bool,
 ) -> Result<KeptFill, Refusal> {
     let field = &prepared.field.field;
@@ -210,22 +243,24 @@ fn fill(
     let polygons = boundary::polygons(face, bounds, &cut.parameters, &cut.polylines);
     let mut patch = Patch::new(&face.surface, &polygons, &cut.points);
     let nodes: Vec<Node> = polygons.into_iter().flatten().collect();
-    let crossing = |starts: Vec<u32>| {
-        let edges = starts.into_iter().map(|n| nodes[n as usize].edge);
-        Refusal::Crossing(edges.filter(|&e| e != usize::MAX).collect())
+    let coarse = |starts: Vec<u32>| {
+        let segments = starts.into_iter().map(|n| nodes[n as usize]);
+        Refusal::Coarse(segments.filter(|n| n.edge != usize::MAX).map(|n| (n.edge, n.segment)).collect())
     };
     let mut kept = true;
     if !rectangle::fill(&mut patch, &face.surface, field, o) {
-        kept = delaunay::fill(&mut patch, &face.surface, field, o, stop).map_err(|unfit| match unfit {
-            delaunay::Unfit::Crossing(starts) => crossing(starts),
-            delaunay::Unfit::Touching => Refusal::Touching,
-            delaunay::Unfit::Stopped => Refusal::Stopped,
-        })?;
+        kept = delaunay::fill(&mut patch, &face.surface, field, o, least, stop).map_err(
+            |unfit| match unfit {
+                delaunay::Unfit::Coarse(starts) => coarse(starts),
+                delaunay::Unfit::Touching => Refusal::Touching,
+                delaunay::Unfit::Stopped => Refusal::Stopped,
+            },
+        )?;
     }
     // Too coarse a border encloses nothing, or the wrong side.
     let loose = patch.loose_border();
     if !loose.is_empty() {
-        return Err(crossing(loose));
+        return Err(coarse(loose));
     }
     Ok(KeptFill::new(face, cut, &nodes, patch, kept))
 }

@@ -10,14 +10,8 @@ use glam::{DVec2, DVec3};
 /// Parameters at which an edge is cut into segments, both ends included.
 ///
 /// Segments keep the chord and angle tolerances on the curve, and span at most one grid step of each face they
-/// border (`uses`), so that the faces' triangles can keep theirs next to it. There are at least `least` of them, unless
-/// one is as good as any number.
-pub(crate) fn divide(
-    edge: &Edge,
-    uses: &[(&Coedge, &Field)],
-    least: usize,
-    o: &TessellationOptions,
-) -> Vec<f64> {
+/// border (`uses`), so that the faces' triangles can keep theirs next to it.
+pub(crate) fn divide(edge: &Edge, uses: &[(&Coedge, &Field)], o: &TessellationOptions) -> Vec<f64> {
     let knots = match &edge.curve {
         EdgeCurve::BSpline(c) => c.knots(),
         EdgeCurve::Rational(c) => c.homogeneous().knots(),
@@ -33,14 +27,12 @@ pub(crate) fn divide(
         bordering(coedge, field, &borders, &mut densities);
     }
     let grading = Grading::new(borders, &densities, |t| is_kink(knots, t));
-    let wanted = least as f64;
-    let mut factor = if grading.total() > 0.0 { (wanted / grading.total()).max(1.0) } else { 1.0 };
-    let most = 4096.0 * factor;
+    let mut factor = 1.0;
     loop {
         let parameters = grading.divide(factor);
         let worst = if straight { 0.0 } else { worst_chord(&edge.curve, &parameters) };
         // Twice the steps is a quarter of the deviation; 4096 times the steps is beyond any smooth curve.
-        if !(worst > o.sampled_chord()) || factor > most {
+        if !(worst > o.sampled_chord()) || factor > 4096.0 {
             return parameters;
         }
         factor *= (worst / o.sampled_chord()).sqrt().clamp(1.1, 4.0);

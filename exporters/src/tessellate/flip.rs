@@ -10,8 +10,6 @@ use std::collections::HashMap;
 
 /// Rounds of exchanges; a round looks at the triangles that the last one touched.
 const ROUNDS: usize = 12;
-/// Cosine between a triangle's normal and the surface's at its corners below which its diagonals are looked at.
-const ASKEW: f64 = 0.5;
 
 impl Patch {
     /// Least cosine between a triangle's normal and the surface's at its corners; 1 where the triangle vanishes.
@@ -27,10 +25,11 @@ impl Patch {
         t.iter().map(cosine).fold(1.0, f64::min)
     }
 
-    /// Exchanges the diagonals of pairs of triangles as long as the worse of the two gets better by it. Borders stay.
-    pub(crate) fn exchange_diagonals(&mut self) {
+    /// Exchanges the diagonals of triangles whose normals are off the surface's by more than the angle of this cosine, as
+    /// long as the worse of two neighbours gets better by it. Borders stay.
+    pub(crate) fn exchange_diagonals(&mut self, tilt: f64) {
         let mut bad: Vec<usize> =
-            (0..self.triangles.len()).filter(|&i| self.uprightness(self.triangles[i]) < ASKEW).collect();
+            (0..self.triangles.len()).filter(|&i| self.uprightness(self.triangles[i]) < tilt).collect();
         if bad.is_empty() {
             return;
         }
@@ -57,7 +56,7 @@ impl Patch {
             next.extend(&touched);
             next.sort_unstable();
             next.dedup();
-            next.retain(|&i| self.uprightness(self.triangles[i]) < ASKEW);
+            next.retain(|&i| self.uprightness(self.triangles[i]) < tilt);
             bad = next;
         }
     }

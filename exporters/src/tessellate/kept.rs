@@ -97,19 +97,20 @@ fn bordered(key: Key, loops: &[Loop]) -> Key {
 }
 
 /// Everything that an edge's segments depend on.
-pub(super) fn edge_key(
-    edge: &Edge,
-    uses: &[(&Coedge, &NumberedField)],
-    least: usize,
-    o: &TessellationOptions,
-) -> Key {
-    let key = optioned(Key::of((&edge.curve, least)), o);
+pub(super) fn edge_key(edge: &Edge, uses: &[(&Coedge, &NumberedField)], o: &TessellationOptions) -> Key {
+    let key = optioned(Key::of(&edge.curve), o);
     uses.iter().fold(key, |key, (coedge, field)| key.and((*coedge, field.number)))
 }
 
 /// Everything that a face's triangles depend on.
-pub(super) fn face_key(face: &Face, prepared: &Prepared, cut: &Cut, o: &TessellationOptions) -> Key {
-    let key = optioned(Key::of((prepared.surface, prepared.field.number)), o);
+pub(super) fn face_key(
+    face: &Face,
+    prepared: &Prepared,
+    cut: &Cut,
+    o: &TessellationOptions,
+    least: Option<f64>,
+) -> Key {
+    let key = optioned(Key::of((prepared.surface, prepared.field.number, least)), o);
     coedges(face).fold(bordered(key, &face.loops), |key, coedge| {
         let key = key.and(&*cut.parameters[coedge.edge.0]);
         cut.polylines[coedge.edge.0].iter().fold(key, |key, &p| key.and(cut.points[p as usize]))

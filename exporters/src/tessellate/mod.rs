@@ -27,7 +27,8 @@ pub use kept::KeptMeshes;
 pub struct TessellationOptions {
     /// Greatest distance between triangles and surfaces, polylines and edges, mm.
     pub chord_mm: f64,
-    /// Greatest turn of an edge's tangent over a segment, and of a surface's normal over a grid step, degrees.
+    /// Greatest turn of an edge's tangent over a segment and of a surface's normal over a grid step, and greatest angle
+    /// between a triangle's normal and the surface's at its corners, degrees.
     pub angle_deg: f64,
     /// Greatest length of a segment and of a grid step, mm.
     pub max_edge_mm: Option<f64>,

@@ -36,8 +36,12 @@ pub(crate) struct Fault {
 pub(crate) struct Limits {
     /// Cosine of the greatest turn of the normal over a side: more is a fault of infinite distance.
     pub(crate) turn: f64,
+    /// Cosine of the greatest angle between a triangle's normal and the surface's at its corners.
+    pub(crate) tilt: f64,
     /// Length below which a side may turn as it likes, mm.
     pub(crate) shortest: f64,
+    /// Length of a triangle's longest side below which it may tilt as it likes, mm.
+    pub(crate) tiny: f64,
     /// Distance above which a triangle is looked at in more places, mm.
     pub(crate) close: f64,
 }
@@ -108,6 +112,31 @@ impl Patch {
         (0..self.next.len() as u32).filter(|&a| count[a as usize] != 1).collect()
     }
 
+    /// Border segments longer than `shortest` mm, by their first nodes, that are the longest sides of these triangles; with
+    /// `all` also those that begin or end in a corner of one that is turned over.
+    pub(crate) fn long_segments(&self, triangles: &[usize], all: bool, shortest: f64) -> Vec<u32> {
+        let mut before = vec![0; self.next.len()];
+        for (a, &b) in self.next.iter().enumerate() {
+            before[b as usize] = a as u32;
+        }
+        let mut out: Vec<u32> = Vec::new();
+        for &i in triangles {
+            let t = self.triangles[i];
+            let ([a, b], _) = self.longest(t);
+            if self.is_border(a, b) {
+                out.push(if self.next.get(a as usize) == Some(&b) { a } else { b });
+            } else if all && !(self.uprightness(t) > 0.0) {
+                let corners = t.into_iter().filter(|&c| (c as usize) < before.len());
+                out.extend(corners.flat_map(|c| [before[c as usize], c]));
+            }
+        }
+        let length = |a: u32| self.at[a as usize].distance(self.at[self.next[a as usize] as usize]);
+        out.retain(|&a| length(a) > shortest);
+        out.sort_unstable();
+        out.dedup();
+        out
+    }
+
     /// Normal of a triangle, not of unit length.
     pub(crate) fn cross(&self, [a, b, c]: [u32; 3]) -> DVec3 {
         let [a, b, c] = [a, b, c].map(|i| self.at[i as usize]);
@@ -120,9 +149,30 @@ impl Patch {
         a == b || b == c || c == a
     }
 
-    /// Whether a triangle faces the way the surface does at each of its corners.
-    pub(crate) fn is_upright(&self, t: [u32; 3]) -> bool {
-        self.uprightness(t) > 0.0
+    /// Whether a triangle faces away from the surface at a corner; or is tilted too far, unless it is tiny.
+    pub(crate) fn is_askew(&self, t: [u32; 3], limits: Limits) -> bool {
+        let upright = self.uprightness(t);
+        !(upright > 0.0) || upright < limits.tilt && self.longest(t).1 > limits.tiny
+    }
+
+    /// The longest side of a triangle, and its length.
+    fn longest(&self, [a, b, c]: [u32; 3]) -> ([u32; 2], f64) {
+        let length = |s: [u32; 2]| (s, self.at[s[0] as usize].distance(self.at[s[1] as usize]));
+        let longer = |a: ([u32; 2], f64), b: ([u32; 2], f64)| if b.1 > a.1 { b } else { a };
+        longer(longer(length([a, b]), length([b, c])), length([c, a]))
+    }
+
+    /// Where a node straightens up a triangle that stands askew: in the middle of its longest side; in its centre if that is
+    /// a border segment or the triangle is turned over.
+    pub(crate) fn middle(&self, triangle: usize) -> Fault {
+        let t = self.triangles[triangle];
+        let ([a, b], _) = self.longest(t);
+        let uv = if self.is_border(a, b) || !(self.uprightness(t) > 0.0) {
+            t.iter().map(|&i| self.uv[i as usize]).sum::<DVec2>() / 3.0
+        } else {
+            0.5 * (self.uv[a as usize] + self.uv[b as usize])
+        };
+        Fault { distance: f64::INFINITY, uv, triangle }
     }
 
     /// Calls `report` with the greatest fault of each triangle for which `wanted` holds: at its centre, and at the
@@ -131,7 +181,7 @@ impl Patch {
     pub(crate) fn inspect(
         &self,
         surface: &SurfaceGeometry,
-        Limits { turn, shortest, close }: Limits,
+        Limits { turn, shortest, close, .. }: Limits,
         mut wanted: impl FnMut([u32; 3]) -> bool,
         mut report: impl FnMut(Fault),
     ) {
@@ -172,7 +222,7 @@ impl Patch {
     /// Greatest distance found by [`Self::inspect`].
     pub(crate) fn worst(&self, surface: &SurfaceGeometry) -> f64 {
         let mut worst = 0.0f64;
-        let limits = Limits { turn: -2.0, shortest: 0.0, close: f64::INFINITY };
+        let limits = Limits { turn: -2.0, tilt: -2.0, shortest: 0.0, tiny: 0.0, close: f64::INFINITY };
         self.inspect(surface, limits, |_| true, |f| worst = worst.max(f.distance));
         worst
     }

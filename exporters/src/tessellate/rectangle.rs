@@ -79,6 +79,7 @@ pub(crate) fn fill(
     o: &TessellationOptions,
 ) -> bool {
     let Some(sides) = sides(patch) else { return false };
+    let tilt = o.angle().cos();
     let mut factor = 1.0;
     for _ in 0..3 {
         let (us, vs) = (field.u.divide(factor), field.v.divide(factor));
@@ -86,7 +87,7 @@ pub(crate) fn fill(
             break;
         }
         let worst = patch.worst(surface);
-        if worst <= o.sampled_chord() && patch.triangles.iter().all(|&t| patch.is_upright(t)) {
+        if worst <= o.sampled_chord() && patch.triangles.iter().all(|&t| patch.uprightness(t) > tilt) {
             return true;
         }
         patch.clear();

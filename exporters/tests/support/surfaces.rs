@@ -161,3 +161,42 @@ pub fn trimmed_bumps(height: f64, phase: f64, hole: f64) -> Model {
     face(&mut m, "bumps", SurfaceGeometry::BSpline(surface), loops, style("bumps", [0.4, 0.6, 0.4]));
     m
 }
+
+/// No solid: a quarter of a flat ring between radii of 40 and 50 mm in polar parameters, with a window whose outer side
+/// runs `gap` mm inside the ring's outer border at one end, and ten times as far at the other. In the parameters both are
+/// straight; in space the border's chords cut into the window.
+pub fn window_near_border(gap: f64) -> Model {
+    let mut m = Model::default();
+    let weights = [1.0, 0.5f64.sqrt(), 1.0];
+    let net: Vec<DVec3> = [(1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+        .into_iter()
+        .flat_map(|(x, y)| [50.0, 40.0].map(|r| DVec3::new(r * x, r * y, 0.0)))
+        .collect();
+    let doubled: Vec<f64> = weights.iter().flat_map(|&w| [w, w]).collect();
+    let (ku, kv) = (Knots::clamped(2, &[0.0, 1.0]).unwrap(), Knots::clamped(1, &[0.0, 1.0]).unwrap());
+    let surface = RationalSurface::new(ku, kv, &net, &doubled).unwrap();
+    let t: Vec<f64> = (0..=200).map(|i| f64::from(i) / 200.0).collect();
+    let fit = Interpolator::new(3, &t).unwrap();
+    let at = |p: DVec2| surface.point(p.x, p.y);
+    let near = gap / 10.0;
+    let outer = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    let window = [(0.3, near), (0.7, 10.0 * near), (0.7, 0.5), (0.3, 0.5)];
+    let mut loops = Vec::new();
+    for corners in [outer, window] {
+        let corners = corners.map(DVec2::from);
+        let vertices = corners.map(|p| m.add_vertex(at(p)));
+        let mut coedges = Vec::new();
+        for k in 0..4 {
+            let next = (k + 1) % 4;
+            let pcurve = segment_on((0.0, 1.0), corners[k], corners[next]);
+            let mut points: Vec<DVec3> = t.iter().map(|&t| at(pcurve.point(t))).collect();
+            points[0] = m.vertex(vertices[k]);
+            points[200] = m.vertex(vertices[next]);
+            let edge = m.add_edge(vertices[k], vertices[next], fit.curve(&points).unwrap());
+            coedges.push(Coedge { edge, forward: true, pcurve });
+        }
+        loops.push(Loop { coedges });
+    }
+    face(&mut m, "ring", SurfaceGeometry::Rational(surface), loops, style("ring", [0.4, 0.6, 0.4]));
+    m
+}

@@ -227,7 +227,7 @@ struct Tessellate {
     #[serde(default = "chord")]
     #[schemars(extend("minimum" = 1e-5, "maximum" = 1e3, "unit" = "mm"))]
     chord_mm: f64,
-    /// Greatest angle between neighbouring mesh normals, degrees.
+    /// Greatest angle between the normals of a triangle and of the surface at its corners, degrees.
     #[serde(default = "angle")]
     #[schemars(extend("minimum" = 0.1, "maximum" = 60.0, "unit" = "deg"))]
     angle_deg: f64,
@@ -254,7 +254,7 @@ struct ExportModel {
     #[serde(default = "chord")]
     #[schemars(extend("minimum" = 1e-5, "maximum" = 1e3, "unit" = "mm"))]
     chord_mm: f64,
-    /// Greatest angle between neighbouring mesh normals, degrees.
+    /// Greatest angle between the normals of a triangle and of the surface at its corners, degrees.
     #[serde(default = "angle")]
     #[schemars(extend("minimum" = 0.1, "maximum" = 60.0, "unit" = "deg"))]
     angle_deg: f64,
