@@ -1,6 +1,6 @@
 //! Integrals that take short ways - inside small loops, and over whole ruled faces - beside plain quadrature.
 
-use crate::mass_trimmed::{assert_close, blob, coedge, face};
+use crate::mass_trimmed::{assert_areas_close, assert_close, assert_volumes_close, blob, coedge, face};
 use coolinggen_brep::{FaceIntegrals, Loop, face_integrals};
 use coolinggen_nurbs::{Curve, Knots, ParametricCurve, ParametricSurface, Surface};
 use glam::{DVec2, DVec3, Vec2Swizzles};
@@ -28,11 +28,11 @@ fn fan(surface: &Surface<DVec3>, lp: &Loop, center: DVec2) -> FaceIntegrals {
     let mut sums = FaceIntegrals::default();
     for c in &lp.coedges {
         for pair in c.pcurve.breaks().windows(2) {
-            for (s, w) in nodes(4) {
+            for (s, w) in nodes(6) {
                 let [p, d, _] = c.pcurve.derivatives(pair[0] + (pair[1] - pair[0]) * s);
                 let across =
                     (p - center).perp_dot(d) * w * (pair[1] - pair[0]) * if c.forward { 1.0 } else { -1.0 };
-                for (part, w) in nodes(3) {
+                for (part, w) in nodes(6) {
                     let q = center + (p - center) * part;
                     let (x, u, v) = surface.first_derivatives(q.x, q.y);
                     let (normal, weight) = (u.cross(v), across * part * w);
@@ -75,19 +75,26 @@ fn transposed(lp: &Loop) -> Loop {
     Loop { coedges: lp.coedges.iter().map(swapped).collect() }.reversed()
 }
 
+/// What rules of six points a span may leave of an area where bumps and rim are large.
+const ROOT: f64 = 1e-4;
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
     fn a_rim_holds_what_rays_from_inside_sum_up(
-        // Bumps for which a rim needs no finer area than a grid of points gives.
-        bumps in proptest::collection::vec(-0.5f64..0.5, 48),
+        bumps in proptest::collection::vec(-1.0f64..1.0, 48),
         wave in proptest::collection::vec(-0.1f64..0.1, 3),
         spans in 6usize..60,
-        radius in 0.05f64..0.6,
+        radius in 0.05f64..1.5,
         at in (1.8f64..8.2, 1.8f64..8.2),
         clockwise in proptest::bool::ANY,
+        gentle in proptest::bool::ANY,
     ) {
+        // The root in the integrand of an area asks for small loops to be exact.
+        let scale = if gentle { 0.4 } else { 1.0 };
+        let area_tolerance = if gentle { 1e-11 } else { ROOT };
+        let (bumps, radius) = (bumps.iter().map(|b| scale * b).collect::<Vec<_>>(), scale * radius);
         let (surface, center) = (patch(&bumps), DVec2::from(at));
         let mut rim = blob(spans, center, radius, &wave);
         if clockwise {
@@ -101,7 +108,8 @@ proptest! {
                 f.area_mm2 = -f.area_mm2;
             }
         }
-        assert_close(&found, &exact, 1e-11);
+        assert_volumes_close(&found, &exact, 1e-11);
+        assert_areas_close(&found, &exact, area_tolerance);
         // Knot lines through the rim change nothing.
         let lines = [center.x - 0.6 * radius, center.x + 0.1 * radius];
         let parted = surface.with_knots_inserted_u(&lines).unwrap();
@@ -110,7 +118,8 @@ proptest! {
         if clockwise {
             parted.area_mm2 = -parted.area_mm2;
         }
-        assert_close(&parted, &found, 1e-12);
+        assert_volumes_close(&parted, &found, 1e-12);
+        assert_areas_close(&parted, &found, area_tolerance);
     }
 
     #[test]

@@ -67,9 +67,8 @@ impl Walk<'_, '_> {
             walk.step(0.5 * (walk.at + t), depth)?;
             walk.step(t, depth)
         };
-        let near = self.hit.at + self.hit.at_slope * (t - self.at);
-        let meet = |near| self.target.meet(self.leg.face, &ray, near, self.hit.along);
-        let Some(hit) = meet(near).or_else(|| meet(self.hit.at)) else {
+        let near = self.target.ahead(self.leg.face, self.hit.at, self.hit.at_slope * (t - self.at));
+        let Some(hit) = self.target.meet(self.leg.face, &ray, near, self.hit.along) else {
             return halves(self, BoreError::Misses);
         };
         if self.target.holds(self.leg.face, hit.at) {

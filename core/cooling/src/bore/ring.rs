@@ -64,13 +64,11 @@ impl Stretch<'_, '_> {
                     let step = t - at(k - 1);
                     let turn = before.map_or(DVec2::ZERO, |(step, slope)| (last.at_slope - slope) / step);
                     before = Some((step, last.at_slope));
-                    (last.at + (last.at_slope + turn * (0.5 * step)) * step, last.along)
+                    let by = (last.at_slope + turn * (0.5 * step)) * step;
+                    (self.target.ahead(self.face, last.at, by), last.along)
                 }
             };
-            let meet = |near| self.target.meet(self.face, &(self.rays)(t), near, along);
-            // At grazing angles it may lead astray.
-            let again = || hits.last().and_then(|last| meet(last.at));
-            let hit = meet(near).or_else(again).ok_or(BoreError::Misses)?;
+            let hit = self.target.meet(self.face, &(self.rays)(t), near, along).ok_or(BoreError::Misses)?;
             hits.push(hit);
         }
         let points: Vec<DVec3> = hits.iter().map(|h| h.point).collect();

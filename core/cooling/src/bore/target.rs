@@ -129,6 +129,16 @@ impl<'m> Target<'m> {
         Some(with_slopes(&hit, ray))
     }
 
+    /// Where on a face to look for the next hit, which slopes promise `by` from the one at `last`: there, or at `last`
+    /// itself where they point far or off the face. Hits at a flat angle do not follow them so far, and the search would
+    /// end on another part of the continued surface.
+    pub(super) fn ahead(&self, face: FaceId, last: DVec2, by: DVec2) -> DVec2 {
+        const FAR: f64 = 0.1;
+        let ((u0, u1), (v0, v1)) = self.surface(face).domain();
+        let near = by.x.abs() <= FAR * (u1 - u0) && by.y.abs() <= FAR * (v1 - v0);
+        if near && self.holds(face, last + by) { last + by } else { last }
+    }
+
     /// Where a ray meets the target near a place of `face`: on that face, or on a neighbour if the place was not exact.
     pub(super) fn find(
         &self,
