@@ -96,7 +96,7 @@ fn holds(seed: u64, generated: &Generated) {
         }
     }
     let turns = borders(generated, "turn/");
-    assert!(!turns.is_empty() && turns.len() % 8 == 0, "{seed}");
+    assert!(!turns.is_empty() && turns.len().is_multiple_of(SEGMENTS), "{seed}");
     for border in turns.iter().flatten() {
         assert!(of_chambers.contains(border), "{seed}: a turn ends beside its chamber");
     }

@@ -58,3 +58,16 @@ fn no_hole_of_a_built_design_is_found_to_meet_a_wall() {
     }
     assert!(holes > 3 && slots > 0, "{holes} designs with holes, {slots} with slots");
 }
+
+/// Designs that were refused although they can be built: their camber lines bend so tightly in a turn that fibres at the
+/// wall's angle cross.
+#[test]
+fn what_was_refused_without_need_is_built() {
+    for seed in [73, 181, 235, 535] {
+        match outcome(&design(seed)) {
+            Outcome::Built(_) => {}
+            Outcome::Refused(faults) => panic!("{seed}: {}", faults[0]),
+            Outcome::Wrong(what) => panic!("design {seed} is wrong: {what}"),
+        }
+    }
+}
