@@ -93,7 +93,7 @@ impl Stack {
                 (Some(vec![grid.leading_edge; sections.len()]), 1.0)
             }
             Some(front) => match round_noses(blade, grid, &sections, &mut offsets, shell, front, ends)? {
-                Some((ends, kept)) => (Some(ends), kept),
+                Some(noses) => (Some(noses.ends), noses.kept),
                 None => (None, 1.0),
             },
         };
@@ -173,7 +173,7 @@ fn natural_nose(
 /// Gives the leading chamber a nose of its end radius. Where arcs of that radius touch the sides behind the leading edge
 /// in every section, the answer is none: they will close the chamber. Where some touch the leading edge, or a section is
 /// blunter than the arc, all noses run between the same two parameters behind the arcs, and the arcs become part of the
-/// offsets; with them comes the least share of the shell's thickness that they keep.
+/// offsets.
 ///
 /// # Errors
 /// A nose so sharp that what bridges it would take metal from the shell.
@@ -185,7 +185,7 @@ fn round_noses(
     shell: &ShellPlan,
     span: [f64; 2],
     radii: impl Fn(&Section) -> EndRadii,
-) -> Result<Option<(Vec<(f64, f64)>, f64)>, BuildError> {
+) -> Result<Option<Noses>, BuildError> {
     let within = |section: &Section| (span[0]..=span[1]).contains(&section.stream.v());
     // Arcs that touch behind the joints leave the sides smooth as they are.
     let behind_joints = |offset: &OffsetSection| {
@@ -213,9 +213,10 @@ fn round_noses(
         }
     }
     match (best, refusal) {
-        (Some(best), _) if best.kept >= LEAST_KEPT => {
-            offsets.iter_mut().zip(best.offsets).for_each(|(offset, opened)| *offset = opened);
-            Ok(Some((best.ends, best.kept)))
+        (Some(mut best), _) if best.kept >= LEAST_KEPT => {
+            let opened = std::mem::take(&mut best.offsets);
+            offsets.iter_mut().zip(opened).for_each(|(offset, opened)| *offset = opened);
+            Ok(Some(best))
         }
         (Some(best), _) => {
             let (section, offset) = (&sections[best.thinnest], &offsets[best.thinnest]);
