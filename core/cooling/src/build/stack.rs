@@ -232,7 +232,7 @@ fn round_noses(
 
 /// By how many end radii bridges reach beyond the sharp part of the nose, tried in turn where a spline over the sharp part
 /// takes metal from the shell.
-const WIDTHS: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5];
+const WIDTHS: [f64; 9] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
 /// How many times sharper than the end's arc the nose over a bridge may be for the first try to be taken.
 const MOST_BEND: f64 = 2.0;
 /// Share of the shell's thickness that is all of it, as far as turns are concerned.

@@ -1,6 +1,6 @@
 //! The map from the box in which a turn is drawn to space.
 
-use super::fibre::{Fibres, STRAIGHT};
+use super::fibre::{FANS, Fibres, Form, MOST_UNLIKE, Straight};
 use super::{TurnRefusal, TurnSection};
 use crate::build::BuildError;
 use coolinggen_nurbs::{ArcLength, Interpolator, ParametricSurface, Surface};
@@ -35,11 +35,14 @@ pub(super) struct Mapped {
 
 impl TurnChart {
     /// The map over sections ordered away from the chambers, the first being where their straight parts end.
-    pub(super) fn new(sections: &[TurnSection<'_>]) -> Result<Result<Self, TurnRefusal>, BuildError> {
+    pub(super) fn new(
+        sections: &[TurnSection<'_>],
+        form: Form,
+    ) -> Result<Result<Self, TurnRefusal>, BuildError> {
         let first = &sections[0];
         let length = first.camber.length() * first.stream.scale(first.wall[0]);
         let mut fibres: Vec<Fibres<'_>> = sections.iter().map(|s| Fibres::new(s, length)).collect();
-        if let Err(refusal) = fan_out(&mut fibres) {
+        if let Err(refusal) = fan_out(&mut fibres, form) {
             return Ok(Err(refusal));
         }
         let Some(extents) = fibres.iter().map(Fibres::extent).collect::<Option<Vec<_>>>() else {
@@ -117,14 +120,31 @@ impl TurnChart {
     }
 }
 
-/// Lets fibres fan out where they must. One answer for all sections: the map is smooth from one to the next.
-fn fan_out(fibres: &mut [Fibres<'_>]) -> Result<(), TurnRefusal> {
+/// Lets fibres fan out where they must, so that they reach all of the rings. One answer for all sections: the map is smooth
+/// from one to the next.
+fn fan_out(fibres: &mut [Fibres<'_>], form: Form) -> Result<(), TurnRefusal> {
+    if let Form::Fanned(straight) = form {
+        let fan = (straight, MOST_UNLIKE);
+        return [0, 1]
+            .into_iter()
+            .try_for_each(|end| fibres.iter_mut().try_for_each(|f| f.fan_out(end, fan)));
+    }
     for end in [0, 1] {
-        if fibres.iter().any(|f| f.must_fan(end)) {
-            let mut out = |share: &f64| fibres.iter_mut().all(|f| f.fan_out(end, *share).is_ok());
-            if !STRAIGHT.iter().any(&mut out) {
-                return fibres.iter_mut().try_for_each(Fibres::fan_out_at_wall);
-            }
+        if !fibres.iter().any(|f| f.must_fan(end)) {
+            continue;
+        }
+        let mut refusal = None;
+        let mut out = |fan: &&(Straight, f64)| {
+            let fanned = fibres.iter_mut().try_for_each(|f| f.fan_out(end, **fan));
+            let reached = fanned.is_ok() && fibres.iter().all(|f| f.reaches(end));
+            refusal = refusal.take().or(fanned.err());
+            reached
+        };
+        match FANS.iter().find(&mut out) {
+            // Towards both ends.
+            Some((Straight::None, _)) => return Ok(()),
+            Some(_) => {}
+            None => return Err(refusal.unwrap_or(TurnRefusal::Unmapped)),
         }
     }
     Ok(())

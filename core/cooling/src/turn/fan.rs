@@ -15,9 +15,6 @@ struct Way {
     pace: Pace,
 }
 
-/// How many times farther one side may seem to reach than the other, by the rates at which the fan begins.
-const MOST_UNLIKE: f64 = 3.0;
-
 /// Fibres between the one at `from` and the sides' ends, and beyond those.
 pub(super) struct Fan {
     from: f64,
@@ -37,12 +34,13 @@ pub(super) struct Start {
 
 impl Fan {
     /// The fan from the fibre at `from` on, which goes on there as the sides' fibres do; none where a side runs the wrong
-    /// way, or hardly runs.
-    pub(super) fn new(from: f64, sides: [Start; 2]) -> Option<Self> {
+    /// way, or hardly runs: where by the rates at which the fan begins one side would reach more than `unlike` times
+    /// farther than the other.
+    pub(super) fn new(from: f64, sides: [Start; 2], unlike: f64) -> Option<Self> {
         let lengths = sides.map(|s| (s.end - s.u) / s.rate);
         let reach = 0.5 * (lengths[0] + lengths[1]);
-        let unlike = lengths[0] / lengths[1];
-        if !(from * reach >= 0.0 && (1.0 / MOST_UNLIKE..=MOST_UNLIKE).contains(&unlike)) {
+        let ratio = lengths[0] / lengths[1];
+        if !(from * reach >= 0.0 && (1.0 / unlike..=unlike).contains(&ratio)) {
             return None;
         }
         let ways = sides.map(|s| {

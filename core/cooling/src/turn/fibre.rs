@@ -25,9 +25,49 @@ const LEAST_SINE: f64 = 0.42;
 /// Least pace of fibres along a side, relative to the mean on the way to its end: where they go slower they are about to
 /// cross each other, as on the inside of a camber line that bends more tightly than the passage is wide.
 const LEAST_PACE: f64 = 0.1;
-/// Shares of the way to the nearer end of a side on which fibres keep the wall's angle although they fan out behind; tried
-/// in turn.
-pub(super) const STRAIGHT: [f64; 4] = [0.3, 0.2, 0.1, 0.05];
+/// Where fibres begin to fan out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Straight {
+    /// Behind this share of the way to the nearer end of a side.
+    Share(f64),
+    /// At the wall, towards both ends: the camber line bends so tightly that no neighbour can keep the wall's angle.
+    None,
+}
+
+/// How the fibres of a turn run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Form {
+    /// At the wall's angle wherever they can.
+    Kept,
+    /// Fanning out towards both ends.
+    Fanned(Straight),
+}
+
+/// Forms of a turn, tried in turn until its faces are sound.
+pub(crate) const FORMS: [Form; 4] = [
+    Form::Kept,
+    Form::Fanned(Straight::None),
+    Form::Fanned(Straight::Share(0.3)),
+    Form::Fanned(Straight::Share(0.1)),
+];
+
+/// How many times farther one side may seem to reach than the other where fibres must fan out.
+pub(super) const MOST_UNLIKE: f64 = 8.0;
+
+/// Where fibres may begin to fan out, and how many times farther one side may seem to reach from there than the other;
+/// tried in turn.
+pub(super) const FANS: [(Straight, f64); 10] = [
+    (Straight::Share(0.3), 3.0),
+    (Straight::Share(0.2), 3.0),
+    (Straight::Share(0.1), 3.0),
+    (Straight::Share(0.05), 3.0),
+    (Straight::None, 3.0),
+    (Straight::Share(0.3), MOST_UNLIKE),
+    (Straight::Share(0.2), MOST_UNLIKE),
+    (Straight::Share(0.1), MOST_UNLIKE),
+    (Straight::Share(0.05), MOST_UNLIKE),
+    (Straight::None, MOST_UNLIKE),
+];
 /// How far a continued side may turn beside a fan, relative to what is left to turn of the nose between the sides.
 const SHARE_TURNED: f64 = 0.2;
 
@@ -100,8 +140,20 @@ impl<'a> Fibres<'a> {
         [0, 1].map(|k| self.chord(self.sides[k].at(ends[k]).0) * [-1.0, 1.0][end])
     }
 
+    /// Lets the fibres towards an end fan out; those towards the other end, too, if they do so at the wall.
+    pub(super) fn fan_out(
+        &mut self,
+        end: usize,
+        (straight, unlike): (Straight, f64),
+    ) -> Result<(), TurnRefusal> {
+        match straight {
+            Straight::Share(share) => self.fan_out_behind(end, share, unlike),
+            Straight::None => self.fan_out_at_wall(unlike),
+        }
+    }
+
     /// Lets the fibres towards an end fan out, behind a `share` of the way on which they keep the wall's angle.
-    pub(super) fn fan_out(&mut self, end: usize, share: f64) -> Result<(), TurnRefusal> {
+    fn fan_out_behind(&mut self, end: usize, share: f64, unlike: f64) -> Result<(), TurnRefusal> {
         const STEP: f64 = 1e-3;
         let ends = self.bend_less(end);
         // x of the sides' ends, as far as they tell: where a side is steep they need not.
@@ -117,13 +169,12 @@ impl<'a> Fibres<'a> {
             let rate = (at(from + STEP, u)? - at(from - STEP, u)?) / (2.0 * STEP);
             starts[k] = Start { u, rate, end: ends[k] };
         }
-        self.fans[end] = Some(Fan::new(from, starts).ok_or(none)?);
+        self.fans[end] = Some(Fan::new(from, starts, unlike).ok_or(none)?);
         Ok(())
     }
 
-    /// Lets the fibres fan out towards both ends from the wall itself, for walls where the camber line bends so tightly that
-    /// no neighbour can keep the wall's angle.
-    pub(super) fn fan_out_at_wall(&mut self) -> Result<(), TurnRefusal> {
+    /// Lets the fibres fan out towards both ends from the wall itself.
+    fn fan_out_at_wall(&mut self, unlike: f64) -> Result<(), TurnRefusal> {
         let none = TurnRefusal::NoSide { x: 0.0 };
         let ends = [0, 1].map(|end| self.bend_less(end));
         let reach = [0, 1].map(|end| {
@@ -139,7 +190,7 @@ impl<'a> Fibres<'a> {
             }
         }
         for end in [0, 1] {
-            self.fans[end] = Some(Fan::new(0.0, starts[end]).ok_or(none.clone())?);
+            self.fans[end] = Some(Fan::new(0.0, starts[end], unlike).ok_or(none.clone())?);
         }
         Ok(())
     }
@@ -165,29 +216,37 @@ impl<'a> Fibres<'a> {
         (point - center).perp_dot(direction) / (tangent.perp_dot(direction) * camber.length() * self.rate)
     }
 
+    /// Whether fibres reach all of the ring towards an end.
+    pub(super) fn reaches(&self, end: usize) -> bool {
+        self.ring_extent(end).is_some()
+    }
+
     /// Range of x that the rings take, their closures included.
     pub(super) fn extent(&self) -> Option<[f64; 2]> {
+        let [front, back] = [self.ring_extent(0)?, self.ring_extent(1)?];
+        Some([front[0].min(back[0]), front[1].max(back[1])])
+    }
+
+    /// Range of x that the ring towards an end takes, and x = 0.
+    fn ring_extent(&self, end: usize) -> Option<[f64; 2]> {
         const SAMPLES: u32 = 8;
-        let (mut low, mut high) = (0.0f64, 0.0f64);
-        for (end, ring) in self.section.rings.iter().enumerate() {
-            let samples = |k: usize| {
-                let at = move |i: u32| {
-                    ring.segments[k].evaluate(self.section.outline, f64::from(i) / f64::from(SAMPLES)).0
-                };
-                (0..=SAMPLES).map(at)
+        let ring = &self.section.rings[end];
+        let samples = |k: usize| {
+            let at = move |i: u32| {
+                ring.segments[k].evaluate(self.section.outline, f64::from(i) / f64::from(SAMPLES)).0
             };
-            if let Some(fan) = &self.fans[end] {
-                let closure = if end == 0 { 5..8 } else { 1..4 };
-                let inner: Vec<DVec2> = closure.flat_map(samples).collect();
-                let x = fan.beyond(&self.sides, &inner, self.section.wall[0])?;
-                (low, high) = (low.min(x), high.max(x));
-                continue;
-            }
-            let mut x = 0.0;
-            for point in (0..ring.segments.len()).flat_map(samples) {
-                x = self.x_of(point, x)?;
-                (low, high) = (low.min(x), high.max(x));
-            }
+            (0..=SAMPLES).map(at)
+        };
+        if let Some(fan) = &self.fans[end] {
+            let closure = if end == 0 { 5..8 } else { 1..4 };
+            let inner: Vec<DVec2> = closure.flat_map(samples).collect();
+            let x = fan.beyond(&self.sides, &inner, self.section.wall[0])?;
+            return Some([x.min(0.0), x.max(0.0)]);
+        }
+        let (mut low, mut high, mut x) = (0.0f64, 0.0f64, 0.0);
+        for point in (0..ring.segments.len()).flat_map(samples) {
+            x = self.x_of(point, x)?;
+            (low, high) = (low.min(x), high.max(x));
         }
         Some([low, high])
     }

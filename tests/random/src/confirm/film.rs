@@ -190,10 +190,12 @@ impl Confirmer {
         Some(if length - STEP < metering + slant + 0.05 { Ok(what) } else { Err(what) })
     }
 
-    /// The least distance between a hole and the other holes of all rows, less their radii, mm.
+    /// The least distance between a hole and the other holes of all rows, less their radii or half the widths of their
+    /// exits, mm.
     pub(super) fn nearest_hole(&self, row: usize, number: usize) -> Option<f64> {
         let rows = self.cooling["film_rows"].as_array()?;
-        let all: Vec<Vec<Axis>> = rows.iter().map(|r| self.axes(r)).collect::<Option<_>>()?;
+        // Rows of a showerhead have no axes here.
+        let all: Vec<Vec<Axis>> = rows.iter().map(|r| self.axes(r).unwrap_or_default()).collect();
         let one = all.get(row)?.get(number.checked_sub(1)?)?;
         let length = |row: usize| {
             let side = usize::from(rows[row]["side"] == "pressure_side");
@@ -208,8 +210,33 @@ impl Confirmer {
         let gaps = others.filter(|(r, i, _)| (*r, *i + 1) != (row, number)).map(|(r, _, other)| {
             let theirs = points(other, r);
             let between = own.iter().flat_map(|p| theirs.iter().map(move |q| p.distance(*q)));
-            between.fold(f64::INFINITY, f64::min) - 0.5 * (one.diameter + other.diameter)
+            let inside = between.fold(f64::INFINITY, f64::min) - 0.5 * (one.diameter + other.diameter);
+            if r != row {
+                return inside;
+            }
+            // Neighbours of a row lie side by side where they come out.
+            let apart = (other.point - one.point).reject_from(one.direction).length();
+            let metal = self.met(one.point, -one.direction, one.v).first().map_or(0.0, |m| m.1);
+            let wide: Option<f64> = [one, other].map(|a| exit_half(&rows[r], a, metal)).into_iter().sum();
+            wide.map_or(inside, |wide| inside.min(apart - wide))
         });
         gaps.min_by(f64::total_cmp)
     }
+}
+
+/// Half the width between the side walls of a shaped hole in the surface, mm, where it is greatest: where the rounded corners
+/// of its far side begin. None for other shapes, and where the exit does not lie along its row.
+fn exit_half(row: &Value, axis: &Axis, length: f64) -> Option<f64> {
+    let (hole, shape) = (&row["hole"], &row["hole"]["shape"]);
+    let angle = |name: &str| Some(shape[name].as_f64()?.to_radians().tan());
+    let (lateral, forward) = (angle("lateral_expansion_deg")?, angle("forward_expansion_deg")?);
+    let metering = shape["metering_length_d"].as_f64()? * axis.diameter;
+    let corner = shape["corner_radius_d"].as_f64()? * axis.diameter;
+    if hole["compound_deg"].as_f64()? != 0.0 {
+        return None;
+    }
+    // The far wall lies half + (s - metering) forward below the axis, the surface (s - length) tan(inclination).
+    let (half, steep) = (0.5 * axis.diameter, axis.inclination.tan());
+    let s = (half - corner - metering * forward + length * steep) / (steep - forward);
+    Some(half + (s - metering).max(0.0) * lateral)
 }
