@@ -58,3 +58,17 @@ fn no_hole_of_a_built_design_is_found_to_meet_a_wall() {
     }
     assert!(holes > 3 && slots > 0, "{holes} designs with holes, {slots} with slots");
 }
+
+/// Designs that were refused although they can be built: camber lines that bend so tightly in a turn that fibres at the wall's
+/// angle cross; chambers that end about the centre of a round trailing edge, where slots had no direction; a nose over
+/// which a spline cuts too deep.
+#[test]
+fn what_was_refused_without_need_is_built() {
+    for seed in [73, 181, 235, 120, 149, 219] {
+        match outcome(&design(seed)) {
+            Outcome::Built(_) => {}
+            Outcome::Refused(faults) => panic!("{seed}: {}", faults[0]),
+            Outcome::Wrong(what) => panic!("design {seed} is wrong: {what}"),
+        }
+    }
+}
