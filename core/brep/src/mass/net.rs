@@ -157,7 +157,7 @@ impl<'s, V: Frame> Net<'s, V> {
             let first = self.spans[k] - q;
             let (values, slopes) = (&self.rows[0][first..=first + q], &self.rows[1][first..=first + q]);
             if q == 3
-                && points % 2 == 0
+                && points.is_multiple_of(2)
                 && let Some(control) = Row::new(values, slopes)
             {
                 let table = &self.table[k * points * stride..(k + 1) * points * stride];

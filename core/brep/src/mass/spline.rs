@@ -196,7 +196,7 @@ impl<V: Frame> Sweep<'_, '_, V> {
             }
             let rule = gauss::rule(order[inner]);
             if q == 3
-                && rule.len() % 2 == 0
+                && rule.len().is_multiple_of(2)
                 && let Some(control) = Row::new(&rows[0][..=q], &rows[1][..=q])
             {
                 for nodes in rule.chunks_exact(2) {
