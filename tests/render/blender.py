@@ -1,5 +1,5 @@
-"""The pictures of docs/blender.md and the first of README.md, made by the extension itself in Blender's module,
-with Cycles.
+"""The pictures of docs/blender.md and the first of README.md, made by the extension itself in Blender's
+module, with Cycles.
 
 tests/install && cd tests && .venv-bpy4.5/bin/python render/blender.py [NAME...]
 """
@@ -69,7 +69,7 @@ def hero() -> None:
 
 
 def stand(collection, place: Vector, name: str) -> None:
-    """Puts a blade with the middle of its foot at ``place``, turned to the camera, in this picture's materials."""
+    """Puts a blade with the middle of its foot at ``place``, turned a little, in this picture's materials."""
     blades = importlib.import_module(f"{conftest.MODULE}.blades")
     solids = list(blades.objects(collection).values())
     wetted = {
