@@ -69,7 +69,9 @@ def arrays(solid: dict) -> Arrays:
     thickness = None
     if mesh.wall_thickness:
         known = np.frombuffer(mesh.wall_thickness, np.float32)
-        thickness = np.where(np.isfinite(known), known, np.float32(-1))[corners.ravel()]
+        walls = np.isfinite(known)[corners].all(axis=1, keepdims=True)
+        # Between a number and none a triangle would show thin walls that are not there.
+        thickness = np.where(walls, known[corners], np.float32(-1)).ravel()
     at_corners, triangles = normals[corners.ravel()], point_of.ravel()[corners].astype(np.int32)
     return Arrays(
         name=mesh.name,

@@ -42,6 +42,9 @@ def look(name: str) -> None:
     made = scene(480, 480, (0.75, 0.8, 0.88))
     bpy.ops.coolinggen.new(template=TEMPLATE)
     bpy.ops.coolinggen.turntable(frames=12)
+    if name == "THICKNESS":
+        # Colours have one value a vertex.
+        bpy.data.collections[TEMPLATE].coolinggen.angle_deg = 2.0
     bpy.ops.coolinggen.look(look=name)
     made.frame_set(1)
 
