@@ -48,14 +48,4 @@ class Test(bpy.types.Operator):
 
 CLASSES = [Test, Preferences]
 
-
-def register() -> None:
-    """Makes the preferences known."""
-    for kind in CLASSES:
-        bpy.utils.register_class(kind)
-
-
-def unregister() -> None:
-    """Takes them away."""
-    for kind in reversed(CLASSES):
-        bpy.utils.unregister_class(kind)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

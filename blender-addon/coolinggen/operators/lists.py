@@ -5,6 +5,7 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from .. import blades, live, values
 from ..client import forms
+from ..properties import word
 from ..schema import FORM
 
 
@@ -84,8 +85,6 @@ def item_shape(path: str) -> forms.Shape | None:
 
 
 def _part(shape: forms.Shape, name: str) -> forms.Shape | None:
-    from ..properties import word
-
     if not isinstance(shape, forms.Group):
         return None
     for field in shape.fields:

@@ -9,6 +9,7 @@ import FreeCAD as App
 
 from . import job
 from .client.sidecar import RefusedError, SidecarError
+from .proxy import Proxy
 
 #: Parts of a design in the order in which they stand in the tree.
 PARTS = ("metal", "insert", "coolant", "hub", "shroud")
@@ -29,7 +30,7 @@ _PROPERTIES = (
 _HIDDEN = ("Report", "Faults", "Built")
 
 
-class CooledBlade:
+class CooledBlade(Proxy):
     """Keeps the solids of an ``App::FeaturePython`` the same as its design says."""
 
     def __init__(self, obj):
@@ -62,19 +63,6 @@ class CooledBlade:
             obj.Refusal, obj.Faults = [str(error)], ""
             raise RuntimeError(str(error)) from error
         fill(obj, built)
-
-    # All that is worth keeping is in properties. FreeCAD asks by either pair of names.
-    def dumps(self):
-        return None
-
-    def loads(self, state) -> None:
-        pass
-
-    def __getstate__(self):
-        return None
-
-    def __setstate__(self, state) -> None:
-        pass
 
 
 class CooledSolid(CooledBlade):

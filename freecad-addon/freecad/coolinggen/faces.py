@@ -7,6 +7,8 @@ from fnmatch import fnmatchcase
 import FreeCAD as App
 from PySide import QtGui
 
+from .proxy import Proxy
+
 
 def matching(obj, pattern: str) -> Iterator[tuple[object, str]]:
     """Solids and faces (``Face12``) of a blade whose names fit ``pattern``.
@@ -81,7 +83,7 @@ def groups(obj) -> object:
     return group
 
 
-class FaceGroups:
+class FaceGroups(Proxy):
     """A group whose members follow a blade's faces."""
 
     def __init__(self, obj):
@@ -111,18 +113,6 @@ class FaceGroups:
             obj.Document.removeObject(member.Name)
 
     def onDocumentRestored(self, obj) -> None:  # noqa: N802 (FreeCAD's name)
-        pass
-
-    def dumps(self):
-        return None
-
-    def loads(self, state) -> None:
-        pass
-
-    def __getstate__(self):
-        return None
-
-    def __setstate__(self, state) -> None:
         pass
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from . import convert
 from .client.latest import Watch
 from .client.mesh import Mesh, decode
+from .client.sidecar import Sidecar
 from .service import sidecar
 
 #: Preview: greatest distance between mesh and surface, mm, and angle between neighbouring normals.
@@ -41,12 +42,7 @@ class Built:
 
 def preview(request: Request, watch: Watch) -> list[Mesh]:
     """Meshes of the design, quickly."""
-    server = sidecar()
-    generating = _part(watch, 0.0, 0.9)
-    server.call(
-        "design/generate", **request.params(), report=False, progress=generating, cancelled=watch.stopped
-    )
-    reply = server.call(
+    reply = _generated(request, watch, 0.9).call(
         "model/tessellate",
         model=request.model,
         chord_mm=PREVIEW_CHORD_MM,
@@ -93,15 +89,7 @@ def alone(request: Request) -> Built:
 
 def export(request: Request, target: Path, kinds: list[str], watch: Watch) -> list[Path]:
     """Writes a blade's files in formats of the sidecar; the paths."""
-    server = sidecar()
-    server.call(
-        "design/generate",
-        **request.params(),
-        report=False,
-        progress=_part(watch, 0.0, 0.5),
-        cancelled=watch.stopped,
-    )
-    reply = server.call(
+    reply = _generated(request, watch, 0.5).call(
         "model/export",
         model=request.model,
         folder=str(target),
@@ -114,15 +102,7 @@ def export(request: Request, target: Path, kinds: list[str], watch: Watch) -> li
 
 def wall_thickness(request: Request, watch: Watch) -> list[Mesh]:
     """Meshes of the coolant with the wall thickness at their vertices."""
-    server = sidecar()
-    server.call(
-        "design/generate",
-        **request.params(),
-        report=False,
-        progress=_part(watch, 0.0, 0.5),
-        cancelled=watch.stopped,
-    )
-    reply = server.call(
+    reply = _generated(request, watch, 0.5).call(
         "model/tessellate",
         model=request.model,
         chord_mm=PREVIEW_CHORD_MM,
@@ -134,6 +114,16 @@ def wall_thickness(request: Request, watch: Watch) -> list[Mesh]:
         cancelled=watch.stopped,
     )
     return [decode(solid) for solid in reply["solids"]]
+
+
+def _generated(request: Request, watch: Watch, end: float) -> Sidecar:
+    """The sidecar when it has built the design, which is the part of the work up to ``end``."""
+    server = sidecar()
+    progress = _part(watch, 0.0, end)
+    server.call(
+        "design/generate", **request.params(), report=False, progress=progress, cancelled=watch.stopped
+    )
+    return server
 
 
 def _part(watch: Watch, begin: float, end: float):

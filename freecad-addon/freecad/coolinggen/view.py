@@ -5,6 +5,8 @@ from pathlib import Path
 import FreeCADGui as Gui
 from pivy import coin
 
+from .proxy import Proxy
+
 ICONS = Path(__file__).parent / "icons"
 
 
@@ -13,7 +15,7 @@ def icon(name: str) -> str:
     return str(ICONS / f"{name}.svg")
 
 
-class _View:
+class _View(Proxy):
     """What both kinds of view have in common."""
 
     def __init__(self, view):
@@ -21,18 +23,6 @@ class _View:
 
     def attach(self, view) -> None:
         self.Object = view.Object
-
-    def dumps(self):
-        return None
-
-    def loads(self, state) -> None:
-        pass
-
-    def __getstate__(self):
-        return None
-
-    def __setstate__(self, state) -> None:
-        pass
 
 
 class BladeView(_View):
