@@ -1,4 +1,4 @@
-//! Writers of models: STEP for CAD, glTF, OBJ and STL for everything that takes meshes.
+//! Writers of models: STEP for CAD, IGES for meshers, glTF, OBJ and STL for everything that takes meshes.
 //!
 //! Output depends on the model and the options alone: no clock, no thread count, no hash order. Every writer takes
 //! the names of the solids to write, all for an empty list.
@@ -6,8 +6,11 @@
 mod error;
 mod file;
 mod glb;
+mod iges;
 mod materials;
+mod number;
 mod obj;
+mod panels;
 mod select;
 mod step;
 mod stl;
@@ -16,7 +19,9 @@ mod tessellate;
 pub use error::ExportError;
 pub use file::{remove_unfinished, write_atomically};
 pub use glb::write_glb;
+pub use iges::{IgesForm, IgesOptions, write_iges};
 pub use obj::{write_mtl, write_obj};
+pub use panels::write_panels;
 pub use step::{StepOptions, write_step};
 pub use stl::write_stl;
 pub use tessellate::{FaceMesh, KeptMeshes, Tessellation, TessellationOptions, tessellate, tessellate_again};

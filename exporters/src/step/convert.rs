@@ -100,7 +100,7 @@ fn surface(face: &Face) -> SurfaceEntity<'_> {
 /// OpenCASCADE's fixed rule for volumes (FreeCAD's `Shape.Volume`, build123d's `volume`) integrates across a face in u,
 /// with few points however many spans there are, and along its edges in v. Exchanged, and with the edges' parameter
 /// curves given, C3X and rotor are right to 4e-7; as they are, the vane's suction side alone is wrong by 3.1e-3.
-fn rather_transposed((u, v): (usize, usize)) -> bool {
+pub(crate) fn rather_transposed((u, v): (usize, usize)) -> bool {
     u > v
 }
 
