@@ -5,8 +5,8 @@ mod support;
 
 use coolinggen_brep::Grouping;
 use coolinggen_exporters::{
-    IgesForm, IgesOptions, StepOptions, TessellationOptions, tessellate, write_atomically, write_glb, write_iges,
-    write_mtl, write_obj, write_step, write_stl,
+    IgesForm, IgesOptions, StepOptions, TessellationOptions, tessellate, write_atomically, write_glb,
+    write_iges, write_mtl, write_obj, write_step, write_stl,
 };
 use std::path::Path;
 use std::time::Instant;

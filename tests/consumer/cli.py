@@ -12,7 +12,15 @@ from pathlib import Path
 REPOSITORY = Path(__file__).resolve().parents[2]
 BINARY = Path(os.environ.get("COOLINGGEN", REPOSITORY / "target/release/coolinggen")).resolve()
 SAMPLES = Path(os.environ.get("COOLINGGEN_SAMPLES", REPOSITORY / "samples")).resolve()
-FORMATS = ("step", "glb", "obj", "stl")
+# What `generate` is asked for, and what the names of the files end with.
+FORMATS = {
+    "step": "step",
+    "iges": "igs",
+    "iges_surfaces": "surfaces.igs",
+    "glb": "glb",
+    "obj": "obj",
+    "stl": "stl",
+}
 
 DONE, OTHER, REFUSED = 0, 1, 2
 

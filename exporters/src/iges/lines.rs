@@ -24,7 +24,7 @@ pub(super) struct Pointer(usize);
 impl Display for Pointer {
     /// The number of its first line in the directory.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}", 2 * self.0 + 1)
+        (2 * self.0 + 1).fmt(f)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::circle::circle;
 use crate::ExportError;
-use crate::step::rather_transposed;
+use crate::forms::rather_transposed;
 use coolinggen_brep::{Coedge, EdgeId, Face, Loop, Model, Plane, Revolution, SurfaceGeometry, VertexId};
 use coolinggen_nurbs::{Curve, Homogeneous, Knots, NurbsError, ParametricCurve, Surface};
 use glam::{DVec2, DVec3};
@@ -84,7 +84,11 @@ impl<'a> Patch<'a> {
         }
         let mut sides: Vec<Side> = Vec::with_capacity(run.len());
         for &(coedge, along) in &run {
-            let own = if self.swapped { coedge.pcurve.map(|p| DVec2::new(p.y, p.x)) } else { coedge.pcurve.clone() };
+            let own = if self.swapped {
+                coedge.pcurve.map(|p| DVec2::new(p.y, p.x))
+            } else {
+                coedge.pcurve.clone()
+            };
             let curve = if along { own } else { own.reversed() };
             sides.push(Side { curve, on: Place::Edge { id: coedge.edge, along } });
         }

@@ -10,8 +10,6 @@ mod product;
 mod rewrite;
 mod text;
 
-pub(crate) use convert::rather_transposed;
-
 use crate::ExportError;
 use crate::select::select;
 use coolinggen_brep::{Model, Style};

@@ -1,9 +1,10 @@
 //! What stands around the geometry: header, units, products, colours, layers.
 
 use super::StepOptions;
-use super::geometry::{PLACEMENT_LENGTH, Placement};
+use super::geometry::PLACEMENT_LENGTH;
 use super::rewrite::Written;
 use super::text::{List, Ref, Text};
+use crate::forms::Placement;
 use crate::materials::display_value;
 use crate::number::Real;
 use coolinggen_brep::Style;

@@ -1,60 +1,19 @@
 //! The files of a generated design: formats, parts and their names.
 
-use clap::ValueEnum;
+mod format;
+
 use coolinggen_cooling::Generated;
+use coolinggen_cooling::report::FaceReport;
 use coolinggen_exporters as exporters;
-use exporters::{ExportError, KeptMeshes, StepOptions, Tessellation, TessellationOptions, write_atomically};
-use schemars::JsonSchema;
-use serde::Deserialize;
+use exporters::{
+    ExportError, FacePlace, IgesOptions, KeptMeshes, Listed, StepOptions, Tessellation, TessellationOptions,
+    manifest, write_atomically,
+};
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// A file format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Format {
-    /// STEP AP214, exact
-    Step,
-    /// Binary glTF
-    Glb,
-    /// Wavefront OBJ with its materials
-    Obj,
-    /// ASCII STL with a region a face
-    Stl,
-}
-
-/// Which solids go into one file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum SolidChoice {
-    /// The blade's material
-    Metal,
-    /// The sheets in its chambers, a solid an insert
-    Insert,
-    /// What fills its passages, a solid a passage
-    Coolant,
-    /// The hub, where the design asks for it
-    Hub,
-    /// The shroud, where the design asks for it
-    Shroud,
-    /// Everything in one file
-    Assembly,
-}
-
-impl SolidChoice {
-    /// Its part of the files' names, and what the names of its solids begin with.
-    fn parts(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Metal => ("metal", "metal"),
-            Self::Insert => ("insert", "insert/"),
-            Self::Coolant => ("coolant", "coolant/"),
-            Self::Hub => ("hub", "hub"),
-            Self::Shroud => ("shroud", "shroud"),
-            Self::Assembly => ("assembly", ""),
-        }
-    }
-}
+pub(crate) use format::{Format, SolidChoice};
 
 /// What to write, and where.
 pub(crate) struct Export<'a> {
@@ -98,11 +57,16 @@ impl ExportFailure {
 impl Export<'_> {
     /// Steps that [`Export::write`] tells at most.
     pub(crate) fn steps(&self) -> usize {
-        self.formats.len() * self.solids.len() + usize::from(self.needs_mesh())
+        let files = self.formats.len() + usize::from(self.needs_panels());
+        files * self.solids.len() + usize::from(self.needs_mesh()) + 1
+    }
+
+    fn needs_panels(&self) -> bool {
+        self.formats.iter().any(|f| f.iges_form().is_some())
     }
 
     fn needs_mesh(&self) -> bool {
-        self.formats.iter().any(|f| *f != Format::Step)
+        self.formats.iter().any(|f| f.is_mesh())
     }
 
     /// Writes the files `<name>.<part>.<extension>`, each complete or not at all, and tells each `step` before it is
@@ -115,7 +79,7 @@ impl Export<'_> {
         let model = &generated.blade.model;
         std::fs::create_dir_all(self.folder)
             .map_err(|e| ExportFailure::new("make the folder", self.folder, e))?;
-        let mut written = Vec::new();
+        let (mut written, mut listed) = (Vec::new(), Vec::new());
         let mesh = if self.needs_mesh() {
             step("tessellating");
             let kept = &mut KeptMeshes::default();
@@ -132,18 +96,37 @@ impl Export<'_> {
                 continue;
             }
             for format in self.formats {
-                if *choice == SolidChoice::Assembly && matches!(format, Format::Obj | Format::Stl) {
+                if *choice == SolidChoice::Assembly && !format.holds_solids() {
                     continue;
                 }
                 let stem = format!("{}.{part}", generated.report.name);
-                let extension =
-                    format.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
-                let path = self.folder.join(format!("{stem}.{extension}"));
+                let file = format!("{stem}.{}", format.extension());
+                let path = self.folder.join(&file);
                 step(&path.display().to_string());
                 let wrote = self.file(*format, generated, &names, mesh.as_ref(), &path, &stem);
                 written.extend(wrote.map_err(|e| ExportFailure::new("write", &path, e))?);
+                listed.push(Listed { file, solids: names.iter().map(|n| (*n).to_owned()).collect() });
+            }
+            if self.needs_panels() {
+                let path = self.folder.join(format!("{}.{part}.centaur.csv", generated.report.name));
+                step(&path.display().to_string());
+                let wrote = self.atomically(&path, |out| {
+                    exporters::write_panels(model, &names, &generated.grouping, out)
+                });
+                wrote.map_err(|e| ExportFailure::new("write", &path, e))?;
+                written.push(path);
             }
         }
+        let path = self.folder.join(format!("{}.groups.json", generated.report.name));
+        step(&path.display().to_string());
+        let wrote = self.atomically(&path, |out| {
+            let faces = generated.report.faces.iter();
+            let place = |f: &FaceReport| FacePlace { area_mm2: f.area_mm2, centroid_mm: f.centroid_mm };
+            let places: Vec<FacePlace> = faces.map(place).collect();
+            Ok(writeln!(out, "{:#}", manifest(model, &generated.grouping, &places, &listed))?)
+        });
+        wrote.map_err(|e| ExportFailure::new("write", &path, e))?;
+        written.push(path);
         Ok(written)
     }
 
@@ -171,6 +154,18 @@ impl Export<'_> {
             (Format::Step, _) => {
                 let options = StepOptions { name: stem.to_owned(), ..StepOptions::default() };
                 self.atomically(path, |out| exporters::write_step(model, names, &options, out))?;
+            }
+            (Format::Brep, _) => self.atomically(path, |out| exporters::write_brep(model, names, out))?,
+            (Format::Iges | Format::IgesSurfaces, _) => {
+                let options = IgesOptions {
+                    name: stem.to_owned(),
+                    file_name: format!("{stem}.{}", format.extension()),
+                    form: format.iges_form().unwrap_or_default(),
+                    ..IgesOptions::default()
+                };
+                self.atomically(path, |out| {
+                    exporters::write_iges(model, names, &generated.grouping, &options, out)
+                })?;
             }
             (_, None) => written.clear(),
             (Format::Glb, Some(mesh)) => {
