@@ -13,7 +13,8 @@ from OCP.TopoDS import TopoDS_Shape
 import topology
 from occ import sub_shapes
 
-MANIFOLD_SOLID, FACE, TRIMMED_SURFACE = 186, 510, 144
+# Types of entities.
+FACE, TRIMMED_SURFACE = 510, 144
 
 
 @dataclass(frozen=True)
@@ -21,14 +22,13 @@ class LabelledFace:
     label: str
     level: int
     coloured: bool
-    shape: TopoDS_Shape
+    shape: TopoDS_Shape | None
 
 
 @dataclass(frozen=True)
 class File:
-    """The shapes of the independent entities, and their faces with what the directory says of each."""
+    """The shapes of the independent entities; the faces in the order of the file; fails and warnings."""
 
-    kinds: set[int]
     shapes: list[TopoDS_Shape]
     faces: list[LabelledFace]
     complaints: int
@@ -41,18 +41,17 @@ def read(path: Path) -> File:
     reader.TransferRoots()
     transfer = reader.WS().TransferReader()
     shapes = [reader.Shape(i) for i in range(1, reader.NbShapes() + 1)]
-    faces, kinds, met = [], set(), set()
+    made = {}
+    for shape in shapes:
+        for face in sub_shapes(shape, topology.FACE):
+            made[transfer.EntityFromShapeResult(face, 1).ShortLabel().ToCString()] = face
     model = reader.IGESModel()
     entities = [model.Entity(i) for i in range(1, model.NbEntities() + 1)]
-    kinds = {e.TypeNumber() for e in entities}
+    faces = []
     for entity in entities:
-        if entity.TypeNumber() not in (FACE, TRIMMED_SURFACE):
-            continue
-        shape = transfer.ShapeResult(entity)
-        label = entity.ShortLabel().ToCString()
-        assert label not in met, f"{path.name}: the label {label} twice"
-        met.add(label)
-        faces.append(LabelledFace(label, entity.Level(), entity.RankColor() != 0, shape))
+        if entity.TypeNumber() in (FACE, TRIMMED_SURFACE):
+            label = entity.ShortLabel().ToCString()
+            faces.append(LabelledFace(label, entity.Level(), entity.RankColor() != 0, made.get(label)))
     checks = transfer.TransientProcess().CheckList(False)
     checks.Start()
     complaints = 0
@@ -60,7 +59,7 @@ def read(path: Path) -> File:
         check = checks.Value()
         complaints += check.NbFails() + check.NbWarnings()
         checks.Next()
-    return File(kinds, shapes, faces, complaints)
+    return File(shapes, faces, complaints)
 
 
 def sewn(faces: list[TopoDS_Shape], tolerance: float) -> tuple[list[TopoDS_Shape], int]:

@@ -31,9 +31,9 @@ def volume_adaptive(shape: TopoDS_Shape, accuracy: float = 1e-6) -> float:
     return properties.Mass()
 
 
-def area(face: TopoDS_Face) -> float:
+def area(shape: TopoDS_Shape) -> float:
     properties = GProp_GProps()
-    BRepGProp.SurfaceProperties_s(face, properties)
+    BRepGProp.SurfaceProperties_s(shape, properties)
     return properties.Mass()
 
 
