@@ -73,6 +73,12 @@ impl Span {
         }
     }
 
+    /// Whether all four lie in it.
+    #[inline(always)]
+    pub(crate) fn holds(&self, t: Lanes) -> bool {
+        (Lanes::from(self.start) - t).max() <= 0.0 && (t - Lanes::from(self.end)).max() <= 0.0
+    }
+
     /// Along a curve the span looked for is mostly the next one.
     fn leave(&mut self, knots: &Knots, t: f64) {
         let next = self.index + 1;
@@ -113,7 +119,7 @@ impl Span {
 
     /// The `N` basis values at `t` for degree `N - 1`, kept in registers.
     #[inline(always)]
-    fn fixed_values<const N: usize, T: Real>(&self, t: T) -> [T; N] {
+    pub(crate) fn fixed_values<const N: usize, T: Real>(&self, t: T) -> [T; N] {
         let mut n = [T::from(0.0); N];
         n[0] = T::from(1.0);
         for j in 1..N {
@@ -123,7 +129,7 @@ impl Span {
     }
 
     #[inline(always)]
-    fn fixed_slopes<const N: usize>(&self, t: f64) -> ([f64; N], [f64; N]) {
+    pub(crate) fn fixed_slopes<const N: usize>(&self, t: f64) -> ([f64; N], [f64; N]) {
         let p = N - 1;
         let (mut n, mut d) = ([0.0; N], [0.0; N]);
         n[0] = 1.0;

@@ -3,10 +3,11 @@
 //! With the integral over `b` (one parameter) inside the one over `a` (the other), a loop contributes
 //! `-+ integral of F(a, b) da` along itself, `F` the integral over `b` from a fixed line. Of that, the part up to
 //! the knot line nearest to the loop is a sum over rectangles, done with tabulated basis functions; what is left
-//! between knot line and loop is a strip within one row of spans.
+//! between knot line and loop is a strip within one row of spans. Small loops (`cells`) and whole ruled faces (`ruled`)
+//! take shorter ways.
 
-use super::Sums;
 use super::net::{Frame, Net, Rectangle};
+use super::{Sums, cells, ruled};
 use crate::boundary::{Path, cuts, walk};
 use crate::gauss::{self, MAX_POINTS};
 use crate::model::Loop;
@@ -16,6 +17,9 @@ use glam::{DVec2, DVec3};
 
 /// What one loop adds to the sums over a part of `surface`.
 pub(super) fn integrate(surface: &Surface<DVec3>, bound: &Loop) -> Sums {
+    if let Some(sums) = ruled::integrate(surface, bound).or_else(|| cells::integrate(surface, bound)) {
+        return sums;
+    }
     // X (X . n) has degree 4 p - 1 in each parameter; six points at least, for the root in the area.
     let points = |degree: usize| (2 * degree).max(6);
     let (p, q) = (surface.knots_u().degree(), surface.knots_v().degree());
@@ -25,7 +29,15 @@ pub(super) fn integrate(surface: &Surface<DVec3>, bound: &Loop) -> Sums {
 /// Sums over the part of `surface` inside `loops`: rules of growing order until two agree.
 pub(super) fn integrate_rational(surface: &RationalSurface<DVec3>, loops: &[Loop]) -> Sums {
     let h = surface.homogeneous();
-    let of_order = |n: usize| super::total(loops.iter().map(|bound| sum_over_loop(h, bound, [n, n])));
+    let mut small = Sums::default();
+    let mut large = Vec::with_capacity(loops.len());
+    for bound in loops {
+        match cells::integrate(h, bound) {
+            Some(sums) => small += sums,
+            None => large.push(bound),
+        }
+    }
+    let of_order = |n: usize| super::total(large.iter().map(|bound| sum_over_loop(h, bound, [n, n])));
     let mut last = of_order(10);
     for n in [14, 20, 28, MAX_POINTS] {
         let next = of_order(n);
@@ -38,6 +50,7 @@ pub(super) fn integrate_rational(surface: &RationalSurface<DVec3>, loops: &[Loop
             break;
         }
     }
+    last += small;
     last
 }
 

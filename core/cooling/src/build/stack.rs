@@ -28,6 +28,8 @@ pub(super) struct Stack {
     pub(super) nose: Option<Vec<(f64, f64)>>,
     /// How many times greater than the trailing chamber's fillets the arc is that ends it.
     pub(super) tail: f64,
+    /// The middle of that arc on each section.
+    pub(super) tails: Vec<DVec3>,
 }
 
 impl Stack {
@@ -92,13 +94,18 @@ impl Stack {
         };
         let back = reach(&spans, plan, plan.chambers.len() - 1);
         let tail = tail(&sections, &offsets, back, |section| ends(section).in_chart(section).1);
-        Ok(Self { sections, offsets, walls, spans, nose, tail })
-    }
-
-    /// The middle of the trailing chamber's end on each section.
-    pub(super) fn tails(&self) -> Vec<DVec3> {
-        let tail = |(s, o): (&Section, &OffsetSection)| s.stream.to_space(o.camber.back().center);
-        self.sections.iter().zip(&self.offsets).map(tail).collect()
+        let tail_of = |(section, offset): (&Section, &OffsetSection)| {
+            let back = offset.camber.back();
+            // Without a blunt trailing edge it is the camber line's last circle.
+            if tail == 1.0 {
+                return section.stream.to_space(back.center);
+            }
+            let radius = tail * ends(section).back / section.scale(back.center);
+            let arc = circle_of_radius(&offset.outline, back, radius);
+            section.stream.to_space(arc.map_or(back.center, |arc| arc.center))
+        };
+        let tails = sections.iter().zip(&offsets).map(tail_of).collect();
+        Ok(Self { sections, offsets, walls, spans, nose, tail, tails })
     }
 
     /// Indices of the sections that chamber `k` is lofted through: those within its span, less those nearer to a
@@ -183,29 +190,82 @@ fn round_noses(
     if sections.iter().zip(&*offsets).all(|(section, offset)| !within(section) || behind_joints(offset)) {
         return Ok(None);
     }
-    let bridged: Vec<Bridged> = (sections.iter().zip(&*offsets))
-        .map(|(section, offset)| Bridged::new(grid, section, offset, radii(section)))
-        .collect::<Result<_, _>>()?;
-    let mut ends = grid.leading_edge;
-    for (pressure, suction) in bridged.iter().filter_map(Bridged::contacts) {
-        ends = (ends.0.min(pressure), ends.1.max(suction));
-    }
-    let mut nose = Vec::with_capacity(sections.len());
-    for ((section, offset), bridged) in sections.iter().zip(offsets).zip(&bridged) {
-        let (opened, at) = bridged.opened(grid, section, radii(section), ends)?;
-        let radius = radii(section).in_chart(section).0;
-        if within(section)
-            && offset.sharp_nose.is_some()
-            && !sound_nose(blade, grid, section, &opened, shell, at)?
-        {
-            let scale = section.scale(opened.camber.front().center);
-            let refusal = offset.nose_refusal(radius).in_space(scale, radii(section).front);
-            return Err(BuildError::refused("/cooling/chambers/0", section.stream.v(), &refusal));
+    let noses =
+        |width: Option<f64>| Noses::new(blade, grid, (sections, &*offsets), shell, span, &radii, width);
+    let made = match noses(None) {
+        Ok(noses) => noses,
+        Err(refusal) => {
+            let mut best: Option<Noses> = None;
+            // Wider ones may leave the sides no length: the first refusal says most.
+            for noses in WIDTHS.iter().filter_map(|width| noses(Some(*width)).ok()) {
+                if best.as_ref().is_none_or(|best| noses.bend < best.bend) {
+                    best = Some(noses);
+                }
+                if best.as_ref().is_some_and(|best| best.bend <= MOST_BEND) {
+                    break;
+                }
+            }
+            best.ok_or(refusal)?
         }
-        *offset = opened;
-        nose.push(at);
+    };
+    offsets.iter_mut().zip(made.offsets).for_each(|(offset, opened)| *offset = opened);
+    Ok(Some(made.ends))
+}
+
+/// By how many end radii bridges reach beyond the sharp part of the nose, tried in turn where a spline over the sharp part
+/// takes metal from the shell.
+const WIDTHS: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5];
+/// How many times sharper than the end's arc the nose over a bridge may be for the first try to be taken.
+const MOST_BEND: f64 = 2.0;
+
+/// The noses of all sections, bridged and opened alike.
+struct Noses {
+    offsets: Vec<OffsetSection>,
+    /// Where the sides give way to the nose.
+    ends: Vec<(f64, f64)>,
+    /// How many times sharper than the end's arc the sharpest of them is.
+    bend: f64,
+}
+
+impl Noses {
+    /// Noses bridged by bridges of this width, in end radii, or by splines.
+    ///
+    /// # Errors
+    /// A nose that would take metal from the shell.
+    fn new(
+        blade: &Blade,
+        grid: &Grid,
+        (sections, offsets): (&[Section], &[OffsetSection]),
+        shell: &ShellPlan,
+        span: [f64; 2],
+        radii: impl Fn(&Section) -> EndRadii,
+        width: Option<f64>,
+    ) -> Result<Self, BuildError> {
+        let within = |section: &Section| (span[0]..=span[1]).contains(&section.stream.v());
+        let bridged: Vec<Bridged> = (sections.iter().zip(offsets))
+            .map(|(section, offset)| Bridged::new(grid, section, offset, radii(section), width))
+            .collect::<Result<_, _>>()?;
+        let mut joints = grid.leading_edge;
+        for (pressure, suction) in bridged.iter().filter_map(Bridged::contacts) {
+            joints = (joints.0.min(pressure), joints.1.max(suction));
+        }
+        let mut noses = Self { offsets: Vec::new(), ends: Vec::new(), bend: 0.0 };
+        for ((section, offset), bridged) in sections.iter().zip(offsets).zip(&bridged) {
+            let (opened, at) = bridged.opened(grid, section, radii(section), joints)?;
+            let radius = radii(section).in_chart(section).0;
+            if within(section) && offset.sharp_nose.is_some() {
+                if !sound_nose(blade, grid, section, &opened, shell, at)? {
+                    let scale = section.scale(opened.camber.front().center);
+                    let refusal = offset.nose_refusal(radius).in_space(scale, radii(section).front);
+                    return Err(BuildError::refused("/cooling/chambers/0", section.stream.v(), &refusal));
+                }
+                noses.bend = noses.bend.max(Bridged::bend(&opened, at, radius));
+            }
+            noses.offsets.push(opened);
+            noses.ends.push(at);
+        }
+        Ok(noses)
     }
-    Ok(Some(nose))
 }
 
 /// How many times greater than `radius` an arc must be to close the trailing chamber before the sides end: more than 1

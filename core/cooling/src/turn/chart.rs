@@ -1,6 +1,6 @@
 //! The map from the box in which a turn is drawn to space.
 
-use super::fibre::Fibres;
+use super::fibre::{Fibres, STRAIGHT};
 use super::{TurnRefusal, TurnSection};
 use crate::build::BuildError;
 use coolinggen_nurbs::{ArcLength, Interpolator, ParametricSurface, Surface};
@@ -39,13 +39,8 @@ impl TurnChart {
         let first = &sections[0];
         let length = first.camber.length() * first.stream.scale(first.wall[0]);
         let mut fibres: Vec<Fibres<'_>> = sections.iter().map(|s| Fibres::new(s, length)).collect();
-        // One answer for all sections: the map is smooth from one to the next.
-        for end in [0, 1] {
-            if fibres.iter().any(|f| f.steep(end))
-                && let Err(refusal) = fibres.iter_mut().try_for_each(|f| f.fan_out(end))
-            {
-                return Ok(Err(refusal));
-            }
+        if let Err(refusal) = fan_out(&mut fibres) {
+            return Ok(Err(refusal));
         }
         let Some(extents) = fibres.iter().map(Fibres::extent).collect::<Option<Vec<_>>>() else {
             return Ok(Err(TurnRefusal::Unmapped));
@@ -120,6 +115,19 @@ impl TurnChart {
         }
         None
     }
+}
+
+/// Lets fibres fan out where they must. One answer for all sections: the map is smooth from one to the next.
+fn fan_out(fibres: &mut [Fibres<'_>]) -> Result<(), TurnRefusal> {
+    for end in [0, 1] {
+        if fibres.iter().any(|f| f.must_fan(end)) {
+            let mut out = |share: &f64| fibres.iter_mut().all(|f| f.fan_out(end, *share).is_ok());
+            if !STRAIGHT.iter().any(&mut out) {
+                return fibres.iter_mut().try_for_each(Fibres::fan_out_at_wall);
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Distance of the sections from the first one, mm, along the wall's mid line.

@@ -121,7 +121,7 @@ pub(super) fn coordinates(
 }
 
 /// As [`coordinates`], searched for from all over the chamber's half of the box.
-fn anywhere(
+pub(super) fn anywhere(
     chart: &TurnChart,
     section: &TurnSection<'_>,
     chamber: usize,

@@ -15,6 +15,9 @@ struct Way {
     pace: Pace,
 }
 
+/// How many times farther one side may seem to reach than the other, by the rates at which the fan begins.
+const MOST_UNLIKE: f64 = 8.0;
+
 /// Fibres between the one at `from` and the sides' ends, and beyond those.
 pub(super) struct Fan {
     from: f64,
@@ -34,11 +37,12 @@ pub(super) struct Start {
 
 impl Fan {
     /// The fan from the fibre at `from` on, which goes on there as the sides' fibres do; none where a side runs the wrong
-    /// way.
+    /// way, or hardly runs.
     pub(super) fn new(from: f64, sides: [Start; 2]) -> Option<Self> {
         let lengths = sides.map(|s| (s.end - s.u) / s.rate);
         let reach = 0.5 * (lengths[0] + lengths[1]);
-        if !lengths.iter().all(|l| l * from > 0.0) {
+        let unlike = lengths[0] / lengths[1];
+        if !(from * reach >= 0.0 && (1.0 / MOST_UNLIKE..=MOST_UNLIKE).contains(&unlike)) {
             return None;
         }
         let ways = sides.map(|s| {

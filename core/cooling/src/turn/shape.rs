@@ -1,7 +1,7 @@
 //! The shape of a turn in its box: a ring for every angle.
 
 use super::chart::TurnChart;
-use super::closure::{Place, Strip, coordinates};
+use super::closure::{Place, Strip, anywhere, coordinates};
 use super::top::{Heights, Top};
 use super::{TurnRefusal, TurnSection};
 use crate::build::BuildError;
@@ -178,7 +178,8 @@ fn side_fractions(
     let mut near = start;
     let mut xs = Vec::with_capacity(stations.len());
     for &t in stations {
-        near = coordinates(chart, section, chamber, (k, t), near)?;
+        near = coordinates(chart, section, chamber, (k, t), near)
+            .or_else(|| anywhere(chart, section, chamber, (k, t), 0.0).filter(|_| xs.is_empty()))?;
         xs.push(near.x);
     }
     let (from, to) = (xs[0], xs[xs.len() - 1]);
