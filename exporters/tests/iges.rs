@@ -34,7 +34,7 @@ fn read(model: &Model, form: IgesForm) -> File {
 
 /// Faces that the solids use.
 fn used(model: &Model) -> BTreeSet<usize> {
-    model.solids.iter().flat_map(|s| s.faces()).map(|f| f.face.0).collect()
+    model.solids.iter().flat_map(coolinggen_brep::Solid::faces).map(|f| f.face.0).collect()
 }
 
 /// A curve on a surface keeps to the curve in space, parameter by parameter.

@@ -91,6 +91,16 @@ def test_trimmed_surfaces_enclose_what_the_solids_do(solids, sewn):
             close.assert_volume(one, other, part, SAME)
 
 
+def test_assembly_has_shared_faces_once(model):
+    file = iges.read(model.file("assembly", "igs"))
+    solids = occ.sub_shapes(occ.compound(file.shapes), topology.SOLID)
+    assert len(solids) == len(model.report["solids"])
+    assert all(topology.free_edges(solid) == 0 for solid in solids)
+    faces = occ.sub_shapes(occ.compound(file.shapes), topology.FACE)
+    assert len(faces) == len(file.faces) == len(model.report["faces"])
+    assert file.complaints == 0
+
+
 @pytest.mark.parametrize("kind", ["solids", "surfaces"])
 def test_labels_and_levels(request, model, manifest, kind):
     levels = {group["name"]: number for number, group in enumerate(manifest["groups"], 1)}
