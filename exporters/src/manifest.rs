@@ -13,6 +13,8 @@ pub struct FacePlace {
     pub area_mm2: f64,
     /// Centre of the area, mm.
     pub centroid_mm: [f64; 3],
+    /// Size of the hole, slot, pin or wall that it belongs to, mm: what a mesh must resolve there.
+    pub feature_mm: Option<f64>,
 }
 
 /// A file and the solids in it.
@@ -51,6 +53,7 @@ pub fn manifest(model: &Model, grouping: &Grouping, places: &[FacePlace], files:
             "color": face.style.color,
             "area_mm2": place.area_mm2,
             "centroid_mm": place.centroid_mm,
+            "feature_mm": place.feature_mm,
             "bounding_box_mm": { "min": min.to_array(), "max": max.to_array() },
             "solids": solids,
         }));

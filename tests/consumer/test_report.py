@@ -48,7 +48,7 @@ def test_every_file_is_there_and_no_other(model):
     expected = {f"{model.name}.{part}.{ending}" for part in model.parts for ending in endings}
     together = [ending for ending in endings if ending not in ("obj", "stl")]
     expected |= {f"{model.name}.assembly.{ending}" for ending in together}
-    expected |= {f"{model.name}.{whole}.json" for whole in ("report", "groups")}
+    expected |= {f"{model.name}.{kind}" for kind in ("report.json", "groups.json", *cli.WHOLE.values())}
     found = {path.name for path in model.folder.iterdir()}
     assert expected <= found
     assert all(name.endswith(".mtl") for name in found - expected), found - expected

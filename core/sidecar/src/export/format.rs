@@ -1,6 +1,7 @@
 //! Formats and parts: what can be asked for.
 
 use clap::ValueEnum;
+use coolinggen_brep::Model;
 use coolinggen_exporters::IgesForm;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -24,24 +25,31 @@ pub(crate) enum Format {
     Obj,
     /// ASCII STL with a region a face
     Stl,
+    /// Nastran bulk data, triangles with a property a group
+    Nastran,
+    /// A script for Gmsh, with the BREP file of all solids that it meshes
+    Gmsh,
 }
 
 impl Format {
     /// Names of all formats, as the command line and the protocol have them.
     pub(crate) fn names() -> Vec<String> {
-        Self::value_variants().iter().copied().map(Self::name).collect()
-    }
-
-    fn name(self) -> String {
-        self.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+        let names = Self::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        names.map(|v| v.get_name().to_owned()).collect()
     }
 
     /// What the names of its files end with.
-    pub(super) fn extension(self) -> String {
+    pub(super) fn extension(self) -> &'static str {
         match self {
-            Self::Iges => "igs".to_owned(),
-            Self::IgesSurfaces => "surfaces.igs".to_owned(),
-            other => other.name(),
+            Self::Step => "step",
+            Self::Brep => "brep",
+            Self::Iges => "igs",
+            Self::IgesSurfaces => "surfaces.igs",
+            Self::Glb => "glb",
+            Self::Obj => "obj",
+            Self::Stl => "stl",
+            Self::Nastran => "nas",
+            Self::Gmsh => "gmsh.py",
         }
     }
 
@@ -56,12 +64,17 @@ impl Format {
 
     /// Whether it is written from a mesh.
     pub(super) fn is_mesh(self) -> bool {
-        matches!(self, Self::Glb | Self::Obj | Self::Stl)
+        matches!(self, Self::Glb | Self::Obj | Self::Stl | Self::Nastran)
     }
 
     /// Whether several solids in one file stay apart.
     pub(super) fn holds_solids(self) -> bool {
         !matches!(self, Self::Obj | Self::Stl)
+    }
+
+    /// Whether it is one for all solids, not a file a part.
+    pub(super) fn is_whole(self) -> bool {
+        self == Self::Gmsh
     }
 }
 
@@ -84,8 +97,18 @@ pub(crate) enum SolidChoice {
 }
 
 impl SolidChoice {
+    /// Its part of the files' names.
+    pub(super) fn part(self) -> &'static str {
+        self.parts().0
+    }
+
+    /// The names of its solids.
+    pub(super) fn names(self, model: &Model) -> Vec<&str> {
+        model.solids.iter().map(|s| s.name.as_str()).filter(|n| n.starts_with(self.parts().1)).collect()
+    }
+
     /// Its part of the files' names, and what the names of its solids begin with.
-    pub(super) fn parts(self) -> (&'static str, &'static str) {
+    fn parts(self) -> (&'static str, &'static str) {
         match self {
             Self::Metal => ("metal", "metal"),
             Self::Insert => ("insert", "insert/"),

@@ -57,131 +57,156 @@ impl ExportFailure {
 impl Export<'_> {
     /// Steps that [`Export::write`] tells at most.
     pub(crate) fn steps(&self) -> usize {
-        let files = self.formats.len() + usize::from(self.needs_panels());
-        files * self.solids.len() + usize::from(self.needs_mesh()) + 1
-    }
-
-    fn needs_panels(&self) -> bool {
-        self.formats.iter().any(|f| f.iges_form().is_some())
+        let (whole, parts): (Vec<Format>, Vec<Format>) = self.formats.iter().partition(|f| f.is_whole());
+        let files = parts.len() + usize::from(parts.iter().any(|f| f.iges_form().is_some()));
+        files * self.solids.len() + 2 * whole.len() + usize::from(self.needs_mesh()) + 1
     }
 
     fn needs_mesh(&self) -> bool {
         self.formats.iter().any(|f| f.is_mesh())
     }
 
-    /// Writes the files `<name>.<part>.<extension>`, each complete or not at all, and tells each `step` before it is
-    /// made. The answer is what was written; an error where it was told to stop.
+    /// Writes the files `<name>.<part>.<extension>` and `<name>.groups.json`, each complete or not at all, and tells each
+    /// `step` before it is made. The answer is what was written; an error where it was told to stop.
     pub(crate) fn write(
         &self,
         generated: &Generated,
         step: &mut dyn FnMut(&str),
     ) -> Result<Vec<PathBuf>, ExportFailure> {
-        let model = &generated.blade.model;
         std::fs::create_dir_all(self.folder)
             .map_err(|e| ExportFailure::new("make the folder", self.folder, e))?;
-        let (mut written, mut listed) = (Vec::new(), Vec::new());
         let mesh = if self.needs_mesh() {
             step("tessellating");
             let kept = &mut KeptMeshes::default();
-            let mesh = exporters::tessellate_again(model, &self.tessellation, kept, self.stop);
-            Some(mesh.map_err(|e| ExportFailure::new("write into", self.folder, e))?)
+            let mesh =
+                exporters::tessellate_again(&generated.blade.model, &self.tessellation, kept, self.stop);
+            mesh.map_err(|e| ExportFailure::new("write into", self.folder, e))?
         } else {
-            None
+            Tessellation::default()
         };
+        let mut writing =
+            Writing { export: self, generated, mesh, step, written: Vec::new(), listed: Vec::new() };
         for choice in self.solids {
-            let (part, chosen) = choice.parts();
-            let names: Vec<&str> =
-                model.solids.iter().map(|s| s.name.as_str()).filter(|n| n.starts_with(chosen)).collect();
-            if names.is_empty() {
-                continue;
-            }
-            for format in self.formats {
-                if *choice == SolidChoice::Assembly && !format.holds_solids() {
-                    continue;
-                }
-                let stem = format!("{}.{part}", generated.report.name);
-                let file = format!("{stem}.{}", format.extension());
-                let path = self.folder.join(&file);
-                step(&path.display().to_string());
-                let wrote = self.file(*format, generated, &names, mesh.as_ref(), &path, &stem);
-                written.extend(wrote.map_err(|e| ExportFailure::new("write", &path, e))?);
-                listed.push(Listed { file, solids: names.iter().map(|n| (*n).to_owned()).collect() });
-            }
-            if self.needs_panels() {
-                let path = self.folder.join(format!("{}.{part}.centaur.csv", generated.report.name));
-                step(&path.display().to_string());
-                let wrote = self.atomically(&path, |out| {
-                    exporters::write_panels(model, &names, &generated.grouping, out)
-                });
-                wrote.map_err(|e| ExportFailure::new("write", &path, e))?;
-                written.push(path);
+            let names = choice.names(&generated.blade.model);
+            let kept = |f: &&Format| !f.is_whole() && (*choice != SolidChoice::Assembly || f.holds_solids());
+            for format in self.formats.iter().filter(kept).filter(|_| !names.is_empty()) {
+                writing.part(*format, *choice, &names)?;
             }
         }
-        let path = self.folder.join(format!("{}.groups.json", generated.report.name));
-        step(&path.display().to_string());
-        let wrote = self.atomically(&path, |out| {
-            let faces = generated.report.faces.iter();
-            let place = |f: &FaceReport| FacePlace { area_mm2: f.area_mm2, centroid_mm: f.centroid_mm };
-            let places: Vec<FacePlace> = faces.map(place).collect();
-            Ok(writeln!(out, "{:#}", manifest(model, &generated.grouping, &places, &listed))?)
-        });
-        wrote.map_err(|e| ExportFailure::new("write", &path, e))?;
-        written.push(path);
-        Ok(written)
+        for format in self.formats.iter().filter(|f| f.is_whole()) {
+            writing.whole(*format)?;
+        }
+        writing.manifest()?;
+        Ok(writing.written)
     }
+}
 
-    /// Writes a file in one piece or not at all.
-    fn atomically(
-        &self,
-        path: &Path,
-        write: impl FnOnce(&mut Stoppable<'_, BufWriter<File>>) -> Result<(), ExportError>,
-    ) -> Result<(), ExportError> {
-        write_atomically(path, |out| write(&mut Stoppable { out, stop: self.stop }))
-    }
+type Out<'a> = Stoppable<'a, BufWriter<File>>;
 
+/// The files of one design, being written.
+struct Writing<'a> {
+    export: &'a Export<'a>,
+    generated: &'a Generated,
+    /// Without a triangle where no format needs any.
+    mesh: Tessellation,
+    step: &'a mut dyn FnMut(&str),
+    written: Vec<PathBuf>,
+    listed: Vec<Listed>,
+}
+
+impl Writing<'_> {
+    /// Writes a file of the folder in one piece or not at all.
     fn file(
-        &self,
-        format: Format,
-        generated: &Generated,
-        names: &[&str],
-        mesh: Option<&Tessellation>,
-        path: &Path,
-        stem: &str,
-    ) -> Result<Vec<PathBuf>, ExportError> {
-        let model = &generated.blade.model;
-        let mut written = vec![path.to_owned()];
-        match (format, mesh) {
-            (Format::Step, _) => {
-                let options = StepOptions { name: stem.to_owned(), ..StepOptions::default() };
-                self.atomically(path, |out| exporters::write_step(model, names, &options, out))?;
+        &mut self,
+        name: &str,
+        write: impl FnOnce(&Self, &mut Out<'_>) -> Result<(), ExportError>,
+    ) -> Result<(), ExportFailure> {
+        let path = self.export.folder.join(name);
+        (self.step)(&path.display().to_string());
+        write_atomically(&path, |out| write(self, &mut Stoppable { out, stop: self.export.stop }))
+            .map_err(|e| ExportFailure::new("write", &path, e))?;
+        self.written.push(path);
+        Ok(())
+    }
+
+    /// The files of some solids in a format.
+    fn part(&mut self, format: Format, choice: SolidChoice, names: &[&str]) -> Result<(), ExportFailure> {
+        let model = &self.generated.blade.model;
+        let stem = format!("{}.{}", self.generated.report.name, choice.part());
+        let file = format!("{stem}.{}", format.extension());
+        if self.listed.iter().any(|listed| listed.file == file) {
+            return Ok(());
+        }
+        let library = format!("{stem}.mtl");
+        if format == Format::Obj {
+            self.file(&library, |_, out| exporters::write_mtl(model, names, out))?;
+        }
+        self.file(&file, |this, out| match format {
+            Format::Step => {
+                let options = StepOptions { name: stem.clone(), ..StepOptions::default() };
+                exporters::write_step(model, names, &options, out)
             }
-            (Format::Brep, _) => self.atomically(path, |out| exporters::write_brep(model, names, out))?,
-            (Format::Iges | Format::IgesSurfaces, _) => {
+            Format::Brep | Format::Gmsh => exporters::write_brep(model, names, out),
+            Format::Iges | Format::IgesSurfaces => {
                 let options = IgesOptions {
-                    name: stem.to_owned(),
-                    file_name: format!("{stem}.{}", format.extension()),
+                    name: stem.clone(),
+                    file_name: file.clone(),
                     form: format.iges_form().unwrap_or_default(),
                     ..IgesOptions::default()
                 };
-                self.atomically(path, |out| {
-                    exporters::write_iges(model, names, &generated.grouping, &options, out)
-                })?;
+                exporters::write_iges(model, names, &this.generated.grouping, &options, out)
             }
-            (_, None) => written.clear(),
-            (Format::Glb, Some(mesh)) => {
-                self.atomically(path, |out| exporters::write_glb(model, names, mesh, out))?;
+            Format::Glb => exporters::write_glb(model, names, &this.mesh, out),
+            Format::Obj => exporters::write_obj(model, names, &this.mesh, &library, out),
+            Format::Stl => exporters::write_stl(model, names, &this.mesh, out),
+            Format::Nastran => {
+                exporters::write_nastran(model, names, &this.mesh, &this.generated.grouping, out)
             }
-            (Format::Stl, Some(mesh)) => {
-                self.atomically(path, |out| exporters::write_stl(model, names, mesh, out))?;
-            }
-            (Format::Obj, Some(mesh)) => {
-                let library = format!("{stem}.mtl");
-                let beside = self.folder.join(&library);
-                self.atomically(&beside, |out| exporters::write_mtl(model, names, out))?;
-                self.atomically(path, |out| exporters::write_obj(model, names, mesh, &library, out))?;
-                written.push(beside);
-            }
+        })?;
+        if format.iges_form().is_some() {
+            self.panels(&stem, names)?;
         }
-        Ok(written)
+        self.listed.push(Listed { file, solids: names.iter().map(|n| (*n).to_owned()).collect() });
+        Ok(())
     }
+
+    /// The table of panels beside the IGES files of some solids, once.
+    fn panels(&mut self, stem: &str, names: &[&str]) -> Result<(), ExportFailure> {
+        let table = format!("{stem}.centaur.csv");
+        if self.written.contains(&self.export.folder.join(&table)) {
+            return Ok(());
+        }
+        let Generated { blade, grouping, .. } = self.generated;
+        self.file(&table, |_, out| exporters::write_panels(&blade.model, names, grouping, out))
+    }
+
+    /// What a format writes of all solids at once.
+    fn whole(&mut self, format: Format) -> Result<(), ExportFailure> {
+        let assembly = SolidChoice::Assembly;
+        self.part(Format::Brep, assembly, &assembly.names(&self.generated.blade.model))?;
+        let name = self.generated.report.name.clone();
+        self.file(&format!("{name}.{}", format.extension()), |_, out| {
+            let shape = format!("{name}.{}.{}", assembly.part(), Format::Brep.extension());
+            exporters::write_gmsh_script(&name, &shape, &manifest_name(&name), out)
+        })
+    }
+
+    /// What is where in the files.
+    fn manifest(&mut self) -> Result<(), ExportFailure> {
+        let Generated { blade, grouping, report, .. } = self.generated;
+        self.file(&manifest_name(&report.name), |this, out| {
+            let place = |(face, feature_mm): (&FaceReport, Option<f64>)| FacePlace {
+                area_mm2: face.area_mm2,
+                centroid_mm: face.centroid_mm,
+                feature_mm,
+            };
+            let places = report.faces.iter().zip(report.feature_sizes_mm()).map(place);
+            let places: Vec<FacePlace> = places.collect();
+            Ok(writeln!(out, "{:#}", manifest(&blade.model, grouping, &places, &this.listed))?)
+        })
+    }
+}
+
+fn manifest_name(design: &str) -> String {
+    format!("{design}.groups.json")
 }
