@@ -6,6 +6,7 @@
 
 mod cells;
 mod net;
+mod pairs;
 mod plane;
 mod revolution;
 mod ruled;

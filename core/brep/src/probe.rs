@@ -163,7 +163,7 @@ fn tensor_slopes<const N: usize, const M: usize>(
     u: f64,
     v: f64,
 ) -> (DVec3, DVec3, DVec3) {
-    let ((n, d), (m, e)) = (spans[0].fixed_slopes::<N>(u), spans[1].fixed_slopes::<M>(v));
+    let ((n, d), (m, e)) = (spans[0].fixed_slopes::<N, f64>(u), spans[1].fixed_slopes::<M, f64>(v));
     let count = surface.counts().1;
     // Values and slopes side by side: pairs for vector instructions.
     let mut along = [[0.0; 2]; 3];

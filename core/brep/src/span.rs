@@ -109,7 +109,7 @@ impl Span {
     #[inline]
     pub(crate) fn slopes(&self, t: f64, values: &mut Weights, slopes: &mut Weights) {
         if self.degree == 3 {
-            let (n, d) = self.fixed_slopes::<4>(t);
+            let (n, d) = self.fixed_slopes::<4, f64>(t);
             values[..4].copy_from_slice(&n);
             slopes[..4].copy_from_slice(&d);
         } else {
@@ -129,16 +129,16 @@ impl Span {
     }
 
     #[inline(always)]
-    pub(crate) fn fixed_slopes<const N: usize>(&self, t: f64) -> ([f64; N], [f64; N]) {
+    pub(crate) fn fixed_slopes<const N: usize, T: Real>(&self, t: T) -> ([T; N], [T; N]) {
         let p = N - 1;
-        let (mut n, mut d) = ([0.0; N], [0.0; N]);
-        n[0] = 1.0;
+        let (mut n, mut d) = ([T::from(0.0); N], [T::from(0.0); N]);
+        n[0] = T::from(1.0);
         for j in 1..p {
             n = self.fixed_step(t, j, n);
         }
-        let mut before = 0.0;
+        let mut before = T::from(0.0);
         for r in 0..p {
-            let term = n[r] * self.inverse[p * (p - 1) / 2 + r] * p as f64;
+            let term = n[r] * T::from(self.inverse[p * (p - 1) / 2 + r]) * T::from(p as f64);
             d[r] = before - term;
             before = term;
         }
@@ -261,7 +261,7 @@ impl Span {
 
     #[inline(always)]
     fn fixed_slope<const N: usize, V: VectorSpace>(&self, t: f64, points: &[V]) -> (V, V) {
-        let (n, d) = self.fixed_slopes::<N>(t);
+        let (n, d) = self.fixed_slopes::<N, f64>(t);
         let (mut sum, mut slope) = (V::default(), V::default());
         for k in 0..N {
             (sum, slope) = (sum + points[k] * n[k], slope + points[k] * d[k]);

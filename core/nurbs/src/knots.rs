@@ -1,6 +1,7 @@
 //! Knot vectors and B-spline basis functions.
 
 use crate::error::NurbsError;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Highest degree that evaluation supports; basis arrays of this size live on the stack.
 pub const MAX_DEGREE: usize = 15;
@@ -12,6 +13,23 @@ pub const MAX_DEGREE: usize = 15;
 pub struct Knots {
     degree: usize,
     values: Vec<f64>,
+    last: LastSpan,
+}
+
+/// The span found last, where the next search begins: mostly it ends there, too. No result depends on it.
+#[derive(Debug, Default)]
+struct LastSpan(AtomicUsize);
+
+impl Clone for LastSpan {
+    fn clone(&self) -> Self {
+        Self(AtomicUsize::new(self.0.load(Ordering::Relaxed)))
+    }
+}
+
+impl PartialEq for LastSpan {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Values and derivatives of the `degree + 1` basis functions that do not vanish on one span.
@@ -39,7 +57,7 @@ impl Knots {
         {
             return Err(NurbsError::KnotOrder { index: i, before: values[i - 1], value: values[i] });
         }
-        let knots = Self { degree, values };
+        let knots = Self { degree, values, last: LastSpan::default() };
         let (start, end) = knots.domain();
         if !(start < end) || !start.is_finite() {
             return Err(NurbsError::KnotOrder { index: degree, before: start, value: end });
@@ -96,6 +114,19 @@ impl Knots {
 
     /// Index `i` with `knots[i] <= t < knots[i + 1]`, the last non-empty span at the end; `t` outside is clamped.
     pub fn span(&self, t: f64) -> usize {
+        let (low, high) = (self.degree, self.control_count());
+        let k = &self.values[..=high];
+        let last = self.last.0.load(Ordering::Relaxed);
+        if (low..high).contains(&last) && k[last] <= t && t < k[last + 1] {
+            return last;
+        }
+        let found = self.searched_span(t);
+        self.last.0.store(found, Ordering::Relaxed);
+        found
+    }
+
+    /// [`Knots::span`] by bisection.
+    fn searched_span(&self, t: f64) -> usize {
         let (low, high) = (self.degree, self.control_count());
         let inner = &self.values[low + 1..high];
         let mut i = low + inner.partition_point(|&k| k <= t);

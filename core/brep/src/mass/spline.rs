@@ -7,9 +7,11 @@
 //! take shorter ways.
 
 use super::net::{Frame, Net, Rectangle};
+use super::pairs::{Pair, PairSums, Row};
 use super::{Sums, cells, ruled};
 use crate::boundary::{Path, cuts, walk};
 use crate::gauss::{self, MAX_POINTS};
+use crate::lanes::Lanes;
 use crate::model::Loop;
 use crate::span::{Span, weighted_sum};
 use coolinggen_nurbs::{MAX_DEGREE, RationalSurface, Surface};
@@ -176,6 +178,7 @@ impl<V: Frame> Sweep<'_, '_, V> {
         let (mut na, mut da) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
         let (mut nb, mut db) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
         let mut rows = [[V::default(); MAX_DEGREE + 1]; 2];
+        let mut pairs = PairSums::zero();
         let (p, q) = (self.net.knots[outer].degree(), self.net.knots[inner].degree());
         for &(s, w) in gauss::rule(n) {
             let (at, slope) = path.slope(start + (end - start) * s);
@@ -191,7 +194,19 @@ impl<V: Frame> Sweep<'_, '_, V> {
                 let b = span_b.first() + k;
                 (rows[0][k], rows[1][k]) = self.net.across(span_a.first(), b, &na[..=p], &da[..=p]);
             }
-            for &(s, w) in gauss::rule(order[inner]) {
+            let rule = gauss::rule(order[inner]);
+            if q == 3
+                && rule.len().is_multiple_of(2)
+                && let Some(control) = Row::new(&rows[0][..=q], &rows[1][..=q])
+            {
+                for nodes in rule.chunks_exact(2) {
+                    let b = Lanes([line + height * nodes[0].0, line + height * nodes[1].0]);
+                    let (n, d) = span_b.fixed_slopes::<4, Pair>(b);
+                    pairs.add(&control, Lanes([weight * nodes[0].1, weight * nodes[1].1]), &n, &d);
+                }
+                continue;
+            }
+            for &(s, w) in rule {
                 span_b.slopes(line + height * s, &mut nb, &mut db);
                 let value = weighted_sum(&nb[..=q], &rows[0]);
                 let along_a = weighted_sum(&nb[..=q], &rows[1]);
@@ -199,6 +214,7 @@ impl<V: Frame> Sweep<'_, '_, V> {
                 self.net.add(&mut self.sums, weight * w, value, along_a, along_b);
             }
         }
+        self.sums += pairs.total(self.net.sense());
     }
 
     /// Adds the rectangle under the pieces so far.

@@ -163,6 +163,8 @@ pub(super) struct ShellCheck<'a> {
     pub(super) blade: &'a Blade,
     pub(super) space: &'a StreamSpace,
     pub(super) shell: &'a ShellPlan,
+    /// Share of the shell's thickness that the leading chamber's nose keeps: a turn cannot keep more of it.
+    pub(super) kept: f64,
     pub(super) watch: &'a dyn Watch,
 }
 
@@ -182,19 +184,21 @@ impl ShellCheck<'_> {
         }
     }
 
-    /// The place where a turn comes nearest to the outer surface, if that is nearer than the shell allows.
-    fn thin(&self, surfaces: &[Surface<DVec3>]) -> Result<Option<TurnRefusal>, BuildError> {
+    /// The place where a turn comes nearest to the outer surface, if that is nearer than the shell allows; `leading` if its
+    /// outer closure begins as the leading chamber's nose.
+    fn thin(&self, surfaces: &[Surface<DVec3>], leading: bool) -> Result<Option<TurnRefusal>, BuildError> {
         const ACROSS: u32 = 6;
         const ALONG: u32 = 12;
         let mut worst: Option<(f64, TurnRefusal)> = None;
         for k in [0, 4, 5, 6, 7] {
+            let kept = if leading && k > 4 { self.kept } else { 1.0 };
             for (i, j) in (0..=ACROSS).flat_map(|i| (0..=ALONG).map(move |j| (i, j))) {
                 let at = surfaces[k].point(f64::from(i) / f64::from(ACROSS), f64::from(j) / f64::from(ALONG));
                 let foot = self.probe.foot(at)?;
                 let found = self.probe.thickness_at(at, &foot);
                 let asked = self.asked(foot.u, self.space.span_fraction(at)?);
                 let ratio = found / asked;
-                if ratio < 1.0 - SHELL_TOLERANCE && worst.as_ref().is_none_or(|(least, _)| ratio < *least) {
+                if ratio < kept - SHELL_TOLERANCE && worst.as_ref().is_none_or(|(least, _)| ratio < *least) {
                     worst = Some((ratio, TurnRefusal::ThinShell { part: PARTS[k], found, asked }));
                 }
             }
@@ -217,7 +221,7 @@ pub(super) fn add_turn(
     let first = 1 - side;
     let lofted = loft(&shape, &ends, first, check.watch)?;
     let refusal = match lofted.fold() {
-        None => check.thin(&lofted.surfaces)?,
+        None => check.thin(&lofted.surfaces, site.plan.front == 0)?,
         folded => folded,
     };
     if let Some(refusal) = refusal {

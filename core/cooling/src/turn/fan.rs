@@ -16,7 +16,7 @@ struct Way {
 }
 
 /// How many times farther one side may seem to reach than the other, by the rates at which the fan begins.
-const MOST_UNLIKE: f64 = 8.0;
+const MOST_UNLIKE: f64 = 3.0;
 
 /// Fibres between the one at `from` and the sides' ends, and beyond those.
 pub(super) struct Fan {
