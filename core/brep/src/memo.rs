@@ -37,7 +37,7 @@ impl Key {
 
     fn push(&mut self, word: u64) {
         self.words.push(word);
-        self.hash.take();
+        self.hash = OnceCell::new();
     }
 
     /// Mixes the words: nobody makes keys collide on purpose.

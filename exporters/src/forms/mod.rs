@@ -3,6 +3,7 @@
 
 mod curve;
 mod pcurve;
+mod ruled;
 mod surface;
 
 use coolinggen_nurbs::Knots;

@@ -20,11 +20,13 @@ struct Cluster {
 
 /// Points of a cluster, a row round the blade.
 const CLUSTER: usize = 8;
+/// Points of the grid round the blade and along it, and clusters of them.
+const AROUND: usize = 12 * CLUSTER;
+const ALONG: usize = 9;
+const CLUSTERS: usize = AROUND / CLUSTER * ALONG;
 
 impl<'a> Probe<'a> {
     pub(crate) fn new(blade: &'a Blade) -> Self {
-        const AROUND: usize = 12 * CLUSTER;
-        const ALONG: usize = 9;
         let cluster = |i: usize, j: usize| {
             let points = std::array::from_fn(|k| {
                 let (u, w) = ((i * CLUSTER + k) as f64 / AROUND as f64, j as f64 / (ALONG - 1) as f64);
@@ -50,14 +52,18 @@ impl<'a> Probe<'a> {
             }
             best.0.sqrt()
         };
-        let away = |cluster: &Cluster| cluster.center.distance_squared(p);
-        let mut least = f64::INFINITY;
-        if let Some(near) = self.clusters.iter().min_by(|a, b| away(a).total_cmp(&away(b))) {
-            least = search(near);
+        let mut away = [0.0; CLUSTERS];
+        let (mut least, mut near) = (f64::INFINITY, 0);
+        for (i, (away, cluster)) in away.iter_mut().zip(&self.clusters).enumerate() {
+            *away = cluster.center.distance_squared(p);
+            if *away < least {
+                (least, near) = (*away, i);
+            }
         }
-        for cluster in &self.clusters {
+        let mut least = search(&self.clusters[near]);
+        for (away, cluster) in away.iter().zip(&self.clusters) {
             let reach = least + cluster.radius;
-            if away(cluster) <= reach * reach {
+            if *away <= reach * reach {
                 least = search(cluster);
             }
         }
