@@ -13,6 +13,8 @@ from .client import mesh as wire
 
 #: Name of the face attribute that numbers the faces of the solid, in the order of the mesh's ``FACES``.
 FACE_ATTRIBUTE = "coolinggen_face"
+#: Normals that differ by more make an edge of the surface, degrees.
+SHARP = 1.0
 #: Name of the corner attribute with the thickness of the wall, mm.
 THICKNESS_ATTRIBUTE = "coolinggen_wall_thickness"
 #: Whether this Blender keeps normals of corners as they are given; else they cost more and are rounded.
@@ -42,6 +44,8 @@ class Arrays:
     """m indices of layers."""
     wall_thickness: np.ndarray | None
     """3 m numbers, mm, at the triangles' corners, negative where there is no wall; none if not measured."""
+    sharp: np.ndarray
+    """3 m flags: whether the surface has an edge between a triangle's corner and the next."""
     normal_rows: list | None
     """The normals once more as Blender before 4.5 takes them."""
 
@@ -65,20 +69,39 @@ def arrays(solid: dict) -> Arrays:
     thickness = None
     if mesh.wall_thickness:
         known = np.frombuffer(mesh.wall_thickness, np.float32)
-        thickness = np.where(np.isfinite(known), known, np.float32(-1))[corners.ravel()]
-    at_corners = normals[corners.ravel()]
+        walls = np.isfinite(known)[corners].all(axis=1, keepdims=True)
+        # Between a number and none a triangle would show thin walls that are not there.
+        thickness = np.where(walls, known[corners], np.float32(-1)).ravel()
+    at_corners, triangles = normals[corners.ravel()], point_of.ravel()[corners].astype(np.int32)
     return Arrays(
         name=mesh.name,
         points=vertices[first],
-        triangles=point_of.ravel()[corners].astype(np.int32),
+        triangles=triangles,
         normals=at_corners,
         faces=tuple(face.name for face in mesh.faces),
         face_of=np.repeat(np.arange(len(sizes), dtype=np.int32), sizes),
         layers=tuple(layers),
         layer_of=np.repeat(np.array(layer_of_face, dtype=np.int32), sizes),
         wall_thickness=thickness,
+        sharp=_sharp(triangles, at_corners.reshape(-1, 3, 3)),
         normal_rows=None if NORMALS_AS_THEY_ARE else _rows(at_corners),
     )
+
+
+def _sharp(triangles: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """Where the normals on both sides of the edges of a closed mesh differ, by corner."""
+    ends = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2).astype(np.int64)
+    # Each edge is there once each way: sorted alike, the two halves lie at the same place.
+    span = int(triangles.max()) + 1
+    there, back = (
+        np.argsort(key) for key in (ends[:, 0] * span + ends[:, 1], ends[:, 1] * span + ends[:, 0])
+    )
+    here, beyond = normals.reshape(-1, 3), np.roll(normals, -1, axis=1).reshape(-1, 3)
+    smooth = np.ones(len(ends), bool)
+    for mine, others in ((here, beyond), (beyond, here)):
+        alike = np.einsum("ij,ij->i", mine[there], others[back]) > np.cos(np.radians(SHARP))
+        smooth[there] &= alike
+    return ~smooth
 
 
 def _rows(numbers: np.ndarray) -> list:
@@ -111,6 +134,12 @@ def fill(mesh, solid: Arrays, scale: float, slots: list[int]) -> None:
     mesh.update(calc_edges=True)
     if solid.normal_rows is None:
         _set(mesh, "custom_normal", "FLOAT_VECTOR", "CORNER", solid.normals)
+        # Cycles has one normal a point, and parts the mesh along these edges first.
+        edge = np.empty(corners, np.int32)
+        mesh.attributes[".corner_edge"].data.foreach_get("value", edge)
+        sharp = np.zeros(len(mesh.edges), bool)
+        sharp[edge] = solid.sharp
+        _set(mesh, "sharp_edge", "BOOLEAN", "EDGE", sharp)
     else:
         mesh.normals_split_custom_set(solid.normal_rows)
     mesh[FACES] = json.dumps(solid.faces)

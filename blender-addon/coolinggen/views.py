@@ -127,13 +127,19 @@ def _glass(material, on: bool) -> None:
         material.surface_render_method = "BLENDED" if on else "DITHERED"
 
 
-def turntable(scene, middle: Vector, radius: float, frames: int, elevation: float) -> None:
-    """A camera and a sun that go once round ``middle`` in so many frames, all within ``radius`` in view."""
+def turntable(scene, corners: list[Vector], frames: int, elevation: float) -> None:
+    """A camera and a sun that go once round the box of ``corners`` in so many frames, all of it in view."""
+    low, high = Vector(map(min, zip(*corners, strict=True))), Vector(map(max, zip(*corners, strict=True)))
+    middle, (across, height) = (low + high) / 2, ((high - low).xy.length / 2, (high - low).z / 2)
     pivot = bpy.data.objects.new("CoolingGen turntable", None)
     scene.collection.objects.link(pivot)
     pivot.location = middle
     camera = bpy.data.objects.new("CoolingGen camera", bpy.data.cameras.new("CoolingGen camera"))
-    distance = radius / math.sin(min(camera.data.angle_x, camera.data.angle_y) / 2) * 1.05
+    # The field of view is the picture's greater side's.
+    wide, tall = scene.render.resolution_x, scene.render.resolution_y
+    tangent = math.tan(camera.data.angle / 2) / max(wide, tall)
+    up = height * math.cos(elevation) + across * abs(math.sin(elevation))
+    distance = 1.05 * (across + max(across / (tangent * wide), up / (tangent * tall)))
     camera.data.clip_start, camera.data.clip_end = distance * 1e-3, distance * 10
     camera.location = distance * Vector((0, -math.cos(elevation), math.sin(elevation)))
     camera.rotation_euler = (math.pi / 2 - elevation, 0, 0)

@@ -45,6 +45,24 @@ def test_meshes(template):
         assert (np.einsum("ijk,ijk->ij", given, flat) > 0.5).mean() > 0.999, name
 
 
+def test_normals_survive_what_cycles_does(rotor):
+    """It parts a mesh at its sharp edges and then has one normal a point."""
+    for name, found in solids(rotor).items():
+        parted = found.data.copy()
+        before = len(parted.vertices)
+        parted.split_faces()
+        assert len(parted.vertices) > before, name
+        normals = np.empty(3 * len(parted.loops), np.float32)
+        parted.corner_normals.foreach_get("vector", normals)
+        corners = np.empty(len(parted.loops), np.int32)
+        parted.attributes[".corner_vert"].data.foreach_get("value", corners)
+        one = np.empty((len(parted.vertices), 3), np.float32)
+        one[corners] = normals.reshape(-1, 3)
+        alike = np.einsum("ij,ij->i", one[corners], normals.reshape(-1, 3))
+        # Edges that fade out, as fillets do, leave a few points with two.
+        assert (alike > np.cos(np.radians(3))).mean() > 0.995, name
+
+
 @pytest.mark.parametrize("scale", [1.0, 0.001, 0.01])
 def test_size_at_any_scale_of_the_scene(scale):
     bpy.context.scene.unit_settings.scale_length = scale

@@ -137,8 +137,10 @@ def test_rings_that_lie_in_no_planes():
     reaches(made, rings)
 
 
-def test_a_loft_round_the_machine_axis():
-    rings = annular(9)
+@pytest.mark.parametrize(
+    "rings", [annular(9), linear(9) + np.array([0, 0, 200])], ids=["cylinders", "planes"]
+)
+def test_a_loft_round_the_machine_axis(rings):
     loft(rings)
     made = cooled()
     assert json.loads(made.coolinggen.source)["space"]["kind"] == "annular"

@@ -63,13 +63,16 @@ def of_rings(rings, stream: Stream) -> dict:
     rings = sorted(rings, key=lambda ring: stream.span(ring).mean())
     middle = [ring[:, 2].mean() for ring in rings]
     height = max(ring[:, 2].max() for ring in rings) - min(ring[:, 2].min() for ring in rings)
-    if all(np.abs(ring[:, 2] - z).max() <= FLAT * height for ring, z in zip(rings, middle, strict=True)):
+    flat = all(np.abs(ring[:, 2] - z).max() <= FLAT * height for ring, z in zip(rings, middle, strict=True))
+    alike = len({len(ring) for ring in rings}) == 1
+    # Round the machine's axis sections are better laid onto stream surfaces along lines from ring to ring.
+    if flat and not (stream.annular and alike):
         if min(np.diff(middle)) <= FLAT * height:
             raise ValueError(f"two sections lie in one plane: they must follow each other {stream.way}")
         return _source(
             {"z": z, "points": ring[:, :2].tolist()} for ring, z in zip(rings, middle, strict=True)
         )
-    if len({len(ring) for ring in rings}) > 1:
+    if not alike:
         raise ValueError("curves that do not lie in planes across z need equally many points")
     net = _aligned(rings)
     spans = stream.span(net)

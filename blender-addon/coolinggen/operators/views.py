@@ -64,9 +64,7 @@ class Turntable(bpy.types.Operator):
             for found in blades.objects(collection).values()
             for corner in found.bound_box
         ]
-        low = Vector(map(min, zip(*corners, strict=True)))
-        high = Vector(map(max, zip(*corners, strict=True)))
-        views.turntable(context.scene, (low + high) / 2, (high - low).length / 2, self.frames, self.elevation)
+        views.turntable(context.scene, corners, self.frames, self.elevation)
         return {"FINISHED"}
 
 

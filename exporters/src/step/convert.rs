@@ -1,6 +1,7 @@
 //! From the model's solids to truck's compressed ones.
 
 use super::geometry::{CurveEntity, Form, Placement, Point, SurfaceEntity};
+use super::ruled::drawn_out;
 use coolinggen_brep::{EdgeCurve, Face, Model, Revolution, RevolutionKind, Shell, Solid, SurfaceGeometry};
 use coolinggen_nurbs::ParametricCurve;
 use glam::DVec3;
@@ -83,10 +84,14 @@ pub(crate) fn curve(curve: &EdgeCurve) -> CurveEntity<'_> {
 fn surface(face: &Face) -> SurfaceEntity<'_> {
     let same = |form| SurfaceEntity { form, same_normal: true };
     match &face.surface {
-        SurfaceGeometry::BSpline(s) if rather_transposed(s.counts()) => {
-            SurfaceEntity { form: Form::BSpline(Cow::Owned(s.transposed())), same_normal: false }
+        SurfaceGeometry::BSpline(s) => {
+            let s = drawn_out(s).map_or(Cow::Borrowed(s), Cow::Owned);
+            if rather_transposed(s.counts()) {
+                SurfaceEntity { form: Form::BSpline(Cow::Owned(s.transposed())), same_normal: false }
+            } else {
+                same(Form::BSpline(s))
+            }
         }
-        SurfaceGeometry::BSpline(s) => same(Form::BSpline(Cow::Borrowed(s))),
         SurfaceGeometry::Rational(s) => same(Form::Rational(s)),
         SurfaceGeometry::Plane(p) => {
             same(Form::Plane(Placement { origin: p.origin, axis: p.x.cross(p.y), reference: p.x }))

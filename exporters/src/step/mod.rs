@@ -8,6 +8,7 @@ mod geometry;
 mod pcurves;
 mod product;
 mod rewrite;
+mod ruled;
 mod text;
 
 use crate::ExportError;
