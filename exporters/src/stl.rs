@@ -1,9 +1,9 @@
-//! ASCII STL with one named region a face.
+//! ASCII STL with one named region a face or a group.
 
 use crate::materials::word;
 use crate::select::select;
 use crate::{ExportError, Tessellation};
-use coolinggen_brep::Model;
+use coolinggen_brep::{FaceUse, Grouping, Model};
 use glam::DVec3;
 use std::io::Write;
 
@@ -21,10 +21,44 @@ pub fn write_stl(
     out: &mut impl Write,
 ) -> Result<(), ExportError> {
     for used in select(model, solids)?.iter().flat_map(|s| s.faces()) {
-        let name = word(&model.face(used.face).name);
+        write_region(&model.face(used.face).name, &[used], mesh, out)?;
+    }
+    Ok(())
+}
+
+/// As [`write_stl`], with one region a group.
+///
+/// # Errors
+/// [`ExportError::UnknownSolid`], [`ExportError::NoSolid`], [`ExportError::Io`].
+pub fn write_stl_of_groups(
+    model: &Model,
+    solids: &[&str],
+    mesh: &Tessellation,
+    grouping: &Grouping,
+    out: &mut impl Write,
+) -> Result<(), ExportError> {
+    let faces: Vec<FaceUse> = select(model, solids)?.iter().flat_map(|s| s.faces()).collect();
+    for (index, group) in grouping.groups().iter().enumerate() {
+        let own: Vec<FaceUse> =
+            faces.iter().copied().filter(|used| grouping.index_of(used.face) == index).collect();
+        if !own.is_empty() {
+            write_region(&group.name, &own, mesh, out)?;
+        }
+    }
+    Ok(())
+}
+
+fn write_region(
+    name: &str,
+    faces: &[FaceUse],
+    mesh: &Tessellation,
+    out: &mut impl Write,
+) -> Result<(), ExportError> {
+    let name = word(name);
+    writeln!(out, "solid {name}")?;
+    for used in faces {
         let face = &mesh.faces[used.face.0];
-        writeln!(out, "solid {name}")?;
-        for triangle in mesh.triangles(used) {
+        for triangle in mesh.triangles(*used) {
             let corners = triangle.map(|i| mesh.points[face.points[i as usize] as usize]);
             let [a, b, c] = corners;
             // Length first: tiny triangles would underflow in the cross product.
@@ -35,8 +69,8 @@ pub fn write_stl(
             }
             writeln!(out, "endloop\nendfacet")?;
         }
-        writeln!(out, "endsolid {name}")?;
     }
+    writeln!(out, "endsolid {name}")?;
     Ok(())
 }
 

@@ -12,7 +12,18 @@ from pathlib import Path
 REPOSITORY = Path(__file__).resolve().parents[2]
 BINARY = Path(os.environ.get("COOLINGGEN", REPOSITORY / "target/release/coolinggen")).resolve()
 SAMPLES = Path(os.environ.get("COOLINGGEN_SAMPLES", REPOSITORY / "samples")).resolve()
-FORMATS = ("step", "glb", "obj", "stl")
+#: Formats of files a part, with what the files' names end with, and those of one file for all parts.
+FORMATS = {
+    "step": "step",
+    "brep": "brep",
+    "iges": "igs",
+    "iges_surfaces": "surfaces.igs",
+    "glb": "glb",
+    "obj": "obj",
+    "stl": "stl",
+    "nastran": "nas",
+}
+WHOLE = {"gmsh": "gmsh.py"}
 
 DONE, OTHER, REFUSED = 0, 1, 2
 
@@ -38,7 +49,7 @@ def run(*arguments, timeout: float = 300, **environment: str) -> subprocess.Comp
 def generate(
     design: Path, folder: Path, *options: str, **environment: str
 ) -> subprocess.CompletedProcess[str]:
-    formats = ",".join(FORMATS)
+    formats = ",".join([*FORMATS, *WHOLE])
     return run("generate", design, "--out", folder, "--format", formats, *options, **environment)
 
 
@@ -62,6 +73,10 @@ class Model:
         return json.loads((self.folder / f"{self.name}.report.json").read_text(encoding="utf-8"))
 
     @cached_property
+    def manifest(self) -> dict:
+        return json.loads((self.folder / f"{self.name}.groups.json").read_text(encoding="utf-8"))
+
+    @cached_property
     def parts(self) -> list[str]:
         """`metal` and `coolant`, each with its files; the coolant is a solid, `coolant/...`, a passage."""
         return list(dict.fromkeys(map(part_of, self.report["solids"])))
@@ -72,6 +87,10 @@ class Model:
 
     def solids(self, part: str) -> list[str]:
         return [name for name in self.report["solids"] if part_of(name) == part]
+
+    def in_order(self, part: str) -> list[str]:
+        """The same, as they stand in the files."""
+        return [solid["name"] for solid in self.manifest["solids"] if part_of(solid["name"]) == part]
 
     def total(self, part: str, value: str) -> float:
         """A value of the report's solids, summed up over the part."""

@@ -6,6 +6,7 @@
 //! - Build: [`Model`] with [`Model::patch_face`] and [`Model::trimmed_face`], which make the parameter curves.
 //! - Check: [`Model::check_solid`] counts edges and genus, and measures how closely edges keep to faces.
 //! - Weigh: [`face_integrals`] and [`Model::solid_mass`], exact areas, volumes and centroids.
+//! - Group: [`Grouping`], faces that are treated alike, and short names.
 //! - Ask: [`Model::solid_bounds`], [`FaceDomain::contains`], [`FaceDomain::samples`].
 //!
 //! Lengths in mm, angles in radians. No function panics on a model, whatever is wrong with it, but those that
@@ -21,6 +22,7 @@ mod domain;
 mod foot;
 mod gauss;
 mod geometry;
+mod group;
 mod imprint;
 mod lanes;
 mod mass;
@@ -37,6 +39,7 @@ pub use cast::{CastHit, Caster};
 pub use check::{EDGE_TOLERANCE_MM, EdgePlace, Fault, SolidCheck, VERTEX_TOLERANCE_MM, deviation_amid_spans};
 pub use domain::{FaceDomain, signed_area};
 pub use geometry::{EdgeCurve, Plane, Revolution, RevolutionKind, SurfaceGeometry};
+pub use group::{Group, Grouping};
 pub use imprint::{Imprint, RingPiece};
 pub use mass::{FaceIntegrals, SolidMass, face_integrals};
 pub use measures::{Measures, Numbered};

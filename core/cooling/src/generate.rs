@@ -2,10 +2,12 @@
 
 use crate::build::{BuildError, CooledBlade, KeptBuild, add_row, build};
 use crate::design::Design;
+use crate::groups::grouping;
 use crate::plan::Plan;
 use crate::report::{KeptMeasures, Report, Timings};
 use crate::watch::{Stage, Unwatched, Watch};
 use coolinggen_blade::{Blade, BladeSource, Fault, SpaceSpec, StreamSpace};
+use coolinggen_brep::Grouping;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
@@ -17,6 +19,8 @@ pub struct Generated {
     pub surface: Arc<Blade>,
     /// The model with its solids.
     pub blade: CooledBlade,
+    /// Its faces in groups, for meshers and solvers.
+    pub grouping: Grouping,
     /// Its measures.
     pub report: Report,
 }
@@ -158,7 +162,8 @@ impl Warm {
             measure: milliseconds(measured),
             total: milliseconds(started),
         };
-        Ok(Generated { surface: Arc::clone(&outer.surface), blade, report })
+        let grouping = grouping(&blade.model, &design.groups);
+        Ok(Generated { surface: Arc::clone(&outer.surface), blade, grouping, report })
     }
 
     /// The outer surface of the design, the last one if nothing that it depends on has changed.

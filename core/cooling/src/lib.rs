@@ -7,6 +7,7 @@ mod bore;
 pub mod build;
 pub mod design;
 mod generate;
+mod groups;
 pub mod plan;
 pub mod report;
 pub mod section;

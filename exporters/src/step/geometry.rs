@@ -3,10 +3,11 @@
 //! truck's own geometry is not used: its knot vectors merge knots closer than 1e-6, its numbers near zero are cut
 //! to 11 digits, and its surfaces of revolution carry the wrong sense (DESIGN.md section 6).
 
-use super::text::{List, Real, Ref, Text};
-use coolinggen_nurbs::{Curve, Homogeneous, Knots, RationalCurve, RationalSurface, Surface};
+use super::text::{List, Ref, Text};
+use crate::forms::{CurveForm, Form, Placement, SurfaceForm, distinct};
+use crate::number::Real;
+use coolinggen_nurbs::{Curve, Homogeneous, Knots};
 use glam::{DVec2, DVec3};
-use std::borrow::Cow;
 use std::fmt::{Formatter, Result};
 use truck_stepio::out::{DisplayByStep, StepCurve, StepLength, StepSurface};
 
@@ -30,20 +31,9 @@ fn direction(id: usize, d: DVec3, f: &mut Formatter<'_>) -> Result {
     writeln!(f, "#{id} = DIRECTION('',{});", List(d.to_array().into_iter().map(Real)))
 }
 
-/// The curve of an edge.
-#[derive(Clone, Copy)]
-pub(crate) enum CurveEntity<'a> {
-    /// A straight segment.
-    Line(DVec3, DVec3),
-    /// A B-spline.
-    BSpline(&'a Curve<DVec3>),
-    /// A rational B-spline.
-    Rational(&'a RationalCurve<DVec3>),
-}
+impl StepCurve for CurveForm<'_> {}
 
-impl StepCurve for CurveEntity<'_> {}
-
-impl StepLength for CurveEntity<'_> {
+impl StepLength for CurveForm<'_> {
     fn step_length(&self) -> usize {
         match self {
             Self::Line(..) => 4,
@@ -53,7 +43,7 @@ impl StepLength for CurveEntity<'_> {
     }
 }
 
-impl DisplayByStep for CurveEntity<'_> {
+impl DisplayByStep for CurveForm<'_> {
     fn fmt(&self, id: usize, f: &mut Formatter<'_>) -> Result {
         match self {
             Self::Line(a, b) => {
@@ -133,29 +123,6 @@ impl DisplayByStep for PcurveEntity<'_> {
     }
 }
 
-/// Distinct knots and their multiplicities, compared exactly.
-fn distinct(knots: &Knots) -> (Vec<f64>, Vec<usize>) {
-    let (mut values, mut counts): (Vec<f64>, Vec<usize>) = (Vec::new(), Vec::new());
-    for &k in knots.values() {
-        match (values.last(), counts.last_mut()) {
-            (Some(&last), Some(count)) if last == k => *count += 1,
-            _ => {
-                values.push(k);
-                counts.push(1);
-            }
-        }
-    }
-    (values, counts)
-}
-
-/// Origin, axis and the direction that angles count from.
-#[derive(Clone, Copy)]
-pub(crate) struct Placement {
-    pub(crate) origin: DVec3,
-    pub(crate) axis: DVec3,
-    pub(crate) reference: DVec3,
-}
-
 /// Entities a placement takes.
 pub(crate) const PLACEMENT_LENGTH: usize = 4;
 
@@ -168,37 +135,13 @@ impl DisplayByStep for Placement {
     }
 }
 
-/// The surface of a face as STEP has it.
-#[derive(Clone)]
-pub(crate) enum Form<'a> {
-    /// `PLANE`.
-    Plane(Placement),
-    /// `CYLINDRICAL_SURFACE`.
-    Cylinder { placement: Placement, radius: f64 },
-    /// `CONICAL_SURFACE`, angle positive in radians.
-    Cone { placement: Placement, radius: f64, angle: f64 },
-    /// `SURFACE_OF_REVOLUTION` about an axis through the origin.
-    Revolved { meridian: Curve<DVec3>, axis: DVec3 },
-    /// `B_SPLINE_SURFACE_WITH_KNOTS`.
-    BSpline(Cow<'a, Surface<DVec3>>),
-    /// The same, rational.
-    Rational(&'a RationalSurface<DVec3>),
-}
-
-/// A surface and whether its normal in STEP is the natural normal of the model's surface.
-#[derive(Clone)]
-pub(crate) struct SurfaceEntity<'a> {
-    pub(crate) form: Form<'a>,
-    pub(crate) same_normal: bool,
-}
-
-impl StepSurface for SurfaceEntity<'_> {
+impl StepSurface for SurfaceForm<'_> {
     fn same_sense(&self) -> bool {
         self.same_normal
     }
 }
 
-impl StepLength for SurfaceEntity<'_> {
+impl StepLength for SurfaceForm<'_> {
     fn step_length(&self) -> usize {
         match &self.form {
             Form::Plane(_) | Form::Cylinder { .. } | Form::Cone { .. } => 1 + PLACEMENT_LENGTH,
@@ -209,7 +152,7 @@ impl StepLength for SurfaceEntity<'_> {
     }
 }
 
-impl DisplayByStep for SurfaceEntity<'_> {
+impl DisplayByStep for SurfaceForm<'_> {
     fn fmt(&self, id: usize, f: &mut Formatter<'_>) -> Result {
         match &self.form {
             Form::Plane(placement) => {

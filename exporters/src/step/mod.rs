@@ -8,7 +8,6 @@ mod geometry;
 mod pcurves;
 mod product;
 mod rewrite;
-mod ruled;
 mod text;
 
 use crate::ExportError;

@@ -7,6 +7,7 @@ mod chambers;
 mod crossovers;
 mod dust_holes;
 mod film;
+mod groups;
 mod inserts;
 mod pattern;
 mod pins;
@@ -22,6 +23,7 @@ pub use chambers::{Chamber, Shell, Wall};
 pub use crossovers::CrossoverRow;
 pub use dust_holes::DustHole;
 pub use film::{FilmHole, FilmRow, HoleShape, Side};
+pub use groups::{FaceGroup, Role};
 pub use inserts::{Insert, InsertSide, JetArray};
 pub use pattern::{AnnulusWall, Pattern};
 pub use pins::PinArray;
@@ -67,6 +69,11 @@ pub struct Design {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("group" = "Row"))]
     pub pattern: Option<Pattern>,
+    /// Groups of faces other than those that the names imply.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 1000))]
+    #[schemars(extend("group" = "Groups"))]
+    pub groups: Vec<FaceGroup>,
 }
 
 /// What is inside the blade.

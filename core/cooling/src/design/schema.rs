@@ -274,13 +274,23 @@ impl Walk {
     }
 
     fn check_string(&mut self, schema: &Map<String, Value>, text: &str, pointer: &str) {
+        let bound = |key: &str| schema.get(key).and_then(Value::as_u64);
+        let letters = text.chars().count() as u64;
+        let (least, most) = (bound("minLength"), bound("maxLength"));
+        if least.is_some_and(|least| letters < least) || most.is_some_and(|most| letters > most) {
+            let fault = Fault::new(pointer, "length", format!("has {letters} letters")).value(text);
+            let fault = least.map_or(fault.clone(), |least| fault.min(least as f64));
+            let fault = most.map_or(fault.clone(), |most| fault.max(most as f64));
+            self.report(fault.unit("letters"));
+            return;
+        }
         let Some(pattern) = schema.get("pattern").and_then(Value::as_str) else { return };
         if !name_matches(pattern, text) {
             let message = format!("must match {pattern}");
             self.report(
                 Fault::new(pointer, "pattern", message)
                     .value(text)
-                    .hint("letters, digits, '_' and '-', beginning with a letter or digit"),
+                    .hint("letters, digits and signs in that pattern, beginning with a letter or digit"),
             );
         }
     }

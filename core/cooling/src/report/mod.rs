@@ -1,5 +1,6 @@
 //! The report of a built design: what it is, measured.
 
+mod features;
 mod inner_bores;
 mod inserts;
 mod kept;
