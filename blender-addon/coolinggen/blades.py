@@ -5,9 +5,8 @@ import json
 
 import bpy
 
-from . import looks, values
+from . import live, looks, values
 from .building import Built, Order
-from .live import quiet
 from .meshes import Arrays, fill
 from .schema import FORM
 
@@ -15,6 +14,9 @@ from .schema import FORM
 SOLID = "coolinggen_solid"
 #: The mesh's property with the layer of each of its material slots, JSON.
 LAYERS = "coolinggen_layers"
+
+#: By collection what :func:`up_to_date` last said, and when: it is asked at each redraw.
+_known: dict[int, tuple[object, bool]] = {}
 
 
 def blades() -> list:
@@ -36,7 +38,7 @@ def new(scene, design: dict, folder: str = ""):
     """A blade of this design in ``scene``, not built yet. Relative paths in it begin in ``folder``."""
     collection = bpy.data.collections.new(design.get("name") or "blade")
     scene.collection.children.link(collection)
-    with quiet():
+    with live.quiet():
         collection.coolinggen.is_blade = True
         collection.coolinggen.folder = folder
     set_design(collection, design)
@@ -52,9 +54,10 @@ def design(collection) -> dict:
 def set_design(collection, design: dict) -> None:
     """Sets a blade's properties as ``design`` says; it does not follow by itself."""
     settings = collection.coolinggen
-    with quiet():
+    with live.quiet():
         values.write(settings.design, FORM, design)
         settings.source = json.dumps(design)
+    live.moved()
 
 
 def order(collection) -> Order:
@@ -62,7 +65,8 @@ def order(collection) -> Order:
     settings = collection.coolinggen
     folder = bpy.path.abspath(settings.folder) if settings.folder else ""
     model = f"blender-{collection.session_uid}"
-    return Order(model, design(collection), folder, settings.chord_mm, settings.angle_deg)
+    thickness = settings.look == "THICKNESS"
+    return Order(model, design(collection), folder, settings.chord_mm, settings.angle_deg, thickness)
 
 
 def mark(order: Order) -> str:
@@ -73,7 +77,11 @@ def mark(order: Order) -> str:
 
 def up_to_date(collection) -> bool:
     """Whether a blade shows its design."""
-    return collection.coolinggen.built == mark(order(collection))
+    settings = collection.coolinggen
+    known = live.changes(), settings.built
+    if _known.get(collection.session_uid, (None, None))[0] != known:
+        _known[collection.session_uid] = known, settings.built == mark(order(collection))
+    return _known[collection.session_uid][1]
 
 
 def show(collection, solid: Arrays) -> None:
@@ -84,8 +92,12 @@ def show(collection, solid: Arrays) -> None:
         found = bpy.data.objects.new(name, bpy.data.meshes.new(name))
         found[SOLID] = solid.name
         collection.objects.link(found)
-    mesh = found.data
+    mesh, groups = found.data, [group.name for group in found.vertex_groups]
     fill(mesh, solid, units_a_millimetre(), _slots(mesh, solid))
+    # They went with the old vertices, but what refers to them should still find them.
+    for name in groups:
+        if name not in found.vertex_groups:
+            found.vertex_groups.new(name=name)
 
 
 def finish(collection, built: Built) -> None:
@@ -98,7 +110,7 @@ def finish(collection, built: Built) -> None:
             if mesh.users == 0:
                 bpy.data.meshes.remove(mesh)
     settings = collection.coolinggen
-    settings.report = json.dumps(built.report)
+    settings.report = built.report
     settings.built = mark(built.order)
     settings.failure = ""
     settings.faults.clear()
@@ -112,6 +124,12 @@ def fail(collection, message: str, faults: list[dict]) -> None:
     for fault in faults:
         told = settings.faults.add()
         told.pointer, told.message, told.hint = fault["pointer"], fault["message"], fault.get("hint") or ""
+
+
+def tell(collection, notice: str, bad: bool) -> None:
+    """Keeps what came of something done with a blade, for the panel."""
+    settings = collection.coolinggen
+    settings.notice, settings.notice_is_bad = notice, bad
 
 
 def objects(collection) -> dict[str, object]:

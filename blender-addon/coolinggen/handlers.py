@@ -9,6 +9,7 @@ from . import blades, live
 @persistent
 def _moved_in_time(_scene, *_rest) -> None:
     """After undo and redo a blade may show another design than its properties say."""
+    live.moved()
     for collection in blades.blades():
         if collection.coolinggen.live and not blades.up_to_date(collection):
             live.touch(collection)
@@ -18,6 +19,7 @@ def _moved_in_time(_scene, *_rest) -> None:
 def _opening(*_rest) -> None:
     """What is being built belongs to a file that goes."""
     live.stop()
+    live.moved()
 
 
 def register() -> None:

@@ -1,18 +1,17 @@
 """Blades follow their designs: what changes is built beside the window and shown piece by piece.
 
-The window's thread only ever fills one mesh at a time; all else is done in a thread of the blade's own.
+The window's thread only ever fills one mesh at a time.
 """
 
 import contextlib
-import itertools
 import time
-from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 
 import bpy
 
-from . import service
-from .client.latest import Done, Latest, Progress
+from . import beside, service
+from .client.latest import Done, Progress
 from .client.sidecar import CancelledError, RefusedError
 
 #: A change is built when nothing more has changed for so long, s.
@@ -21,13 +20,8 @@ PATIENCE = 0.15
 INTERVAL = 0.02
 
 _quiet = 0
+_changes = 0
 _due: dict[int, float] = {}
-_builders: dict[int, Latest] = {}
-_steps: deque[tuple[int, Callable]] = deque()
-#: The number of the order that a blade waits for.
-_awaited: dict[int, int] = {}
-_orders = itertools.count()
-_progress: dict[int, Progress] = {}
 
 
 @contextlib.contextmanager
@@ -41,15 +35,37 @@ def quiet():
         _quiet -= 1
 
 
+def is_quiet() -> bool:
+    """Whether properties are being set by the add-on itself."""
+    return _quiet > 0
+
+
 def changed(properties, _context) -> None:
     """Told by every property of a design that it has changed."""
+    moved()
     if not _quiet and properties.id_data.coolinggen.live:
         touch(properties.id_data)
+
+
+def moved() -> None:
+    """Whatever is known of designs may be so no more."""
+    global _changes
+    _changes += 1
+
+
+def changes() -> int:
+    """A number that is another whenever a design may have changed."""
+    return _changes
 
 
 def touch(collection, patience: float = PATIENCE) -> None:
     """The blade in ``collection`` is to follow its design after ``patience`` s without another change."""
     _due[collection.session_uid] = time.monotonic() + patience
+    watch()
+
+
+def watch() -> None:
+    """Has what goes on beside the window heard of, where there is a window."""
     if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
         bpy.app.timers.register(_tick, persistent=True)
 
@@ -57,58 +73,63 @@ def touch(collection, patience: float = PATIENCE) -> None:
 def update(collection) -> None:
     """Builds a blade and shows it before it returns."""
     _start(collection)
-    while _working(collection.session_uid):
-        _hear()
-        _step()
-        time.sleep(0.001)
+    beside.wait(_key(collection.session_uid))
 
 
 def busy(collection) -> bool:
     """Whether a blade is on its way to its design."""
-    return collection.session_uid in _due or _working(collection.session_uid)
+    return collection.session_uid in _due or beside.working(_key(collection.session_uid))
 
 
 def any_busy() -> bool:
-    """Whether any blade is."""
-    return bool(_due or _awaited or _steps)
+    """Whether any blade is, or anything else is done beside the window."""
+    return bool(_due) or beside.busy()
 
 
 def progress(collection) -> Progress | None:
     """How far a blade's building is."""
-    return _progress.get(collection.session_uid)
+    return beside.progress(_key(collection.session_uid))
 
 
 def cancel() -> None:
     """Gives up all that is on its way; the blades stay as they are shown."""
     _due.clear()
-    _awaited.clear()
-    for builder in _builders.values():
-        builder.cancel()
+    beside.cancel()
 
 
 def stop() -> None:
     """Ends everything that was begun."""
-    cancel()
-    _steps.clear()
-    _progress.clear()
+    _due.clear()
+    beside.stop()
     if bpy.app.timers.is_registered(_tick):
         bpy.app.timers.unregister(_tick)
-    for builder in _builders.values():
-        builder.close()
-    _builders.clear()
+
+
+def reason(error: Exception) -> str:
+    """Why something was not done, with all that is wrong with the design."""
+    faults = error.faults if isinstance(error, RefusedError) else []
+    return "; ".join([str(error), *(f"{fault['pointer']}: {fault['message']}" for fault in faults)])
+
+
+def by_uid(uid: int):
+    """The collection of this session's number, which may be gone."""
+    return next((each for each in bpy.data.collections if each.session_uid == uid), None)
+
+
+def _key(uid: int) -> tuple:
+    return uid, "build"
 
 
 def _tick() -> float | None:
     """What the window's thread does at each interval, short enough not to be felt."""
     now = time.monotonic()
     for uid in [uid for uid, when in _due.items() if when <= now]:
-        collection = _collection(uid)
+        collection = by_uid(uid)
         if collection is None:
             del _due[uid]
         else:
             _start(collection)
-    _hear()
-    _step()
+    beside.turn()
     _redraw()
     if not any_busy():
         return None
@@ -117,58 +138,43 @@ def _tick() -> float | None:
 
 
 def _start(collection) -> None:
-    # What knows of Blender's data is asked here, not in the builder's thread.
+    # What knows of Blender's data is asked here, not in the worker's thread.
     from . import blades, building
 
     uid = collection.session_uid
     _due.pop(uid, None)
     order, preferred = blades.order(collection), service.preferred()
-    builder = _builders.setdefault(uid, Latest())
-    number = _awaited[uid] = next(_orders)
-    builder.submit(lambda watch: building.build(order, lambda: service.sidecar(preferred), watch), number)
+    beside.start(
+        _key(uid),
+        lambda watch: building.build(order, lambda: service.sidecar(preferred), watch),
+        partial(_ended, uid),
+    )
 
 
-def _working(uid: int) -> bool:
-    return uid in _awaited or any(uid == other for other, _ in _steps)
+def _ended(uid: int, done: Done) -> Iterable[beside.Step]:
+    from . import blades, groups, views
 
-
-def _hear() -> None:
-    from . import blades
-
-    for uid, builder in _builders.items():
-        for news in builder.news():
-            if isinstance(news, Progress):
-                _progress[uid] = news
-            elif news.tag == _awaited.get(uid):
-                del _awaited[uid]
-                _progress.pop(uid, None)
-                _ended(uid, news, blades)
-
-
-def _ended(uid: int, done: Done, blades) -> None:
     if done.error is None:
-        built = done.result
-        for solid in built.solids:
-            _steps.append((uid, lambda collection, solid=solid: blades.show(collection, solid)))
-        _steps.append((uid, lambda collection: blades.finish(collection, built)))
-    elif isinstance(done.error, CancelledError):
-        pass
-    elif done.error is not None:
+        for solid in done.result.solids:
+            yield with_blade(uid, lambda collection, solid=solid: blades.show(collection, solid))
+            yield with_blade(uid, lambda collection, name=solid.name: groups.again(collection, name))
+        yield with_blade(uid, lambda collection: blades.finish(collection, done.result))
+        yield with_blade(uid, views.again)
+    elif not isinstance(done.error, CancelledError):
         faults = done.error.faults if isinstance(done.error, RefusedError) else []
-        _steps.append((uid, lambda collection: blades.fail(collection, str(done.error), faults)))
+        yield with_blade(uid, lambda collection: blades.fail(collection, str(done.error), faults))
 
 
-def _step() -> None:
-    if _steps:
-        uid, step = _steps.popleft()
-        collection = _collection(uid)
+def with_blade(uid: int, step: Callable) -> beside.Step:
+    """``step`` with the blade's collection, quietly; nothing if that is gone."""
+
+    def do() -> None:
+        collection = by_uid(uid)
         if collection is not None:
             with quiet():
                 step(collection)
 
-
-def _collection(uid: int):
-    return next((each for each in bpy.data.collections if each.session_uid == uid), None)
+    return do
 
 
 def _listen() -> None:

@@ -4,7 +4,7 @@ import json
 
 import bpy
 
-from . import blades, live
+from . import blades, live, thickness
 from .client import forms
 from .properties import switched, word
 from .schema import FORM
@@ -30,6 +30,7 @@ class Main(Sidebar, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator_menu_enum("coolinggen.new", "template", text="New")
         row.operator("coolinggen.open", text="Open")
+        row.operator("coolinggen.from_object", text="Object")
         collection = blades.active(context)
         if collection is None:
             layout.label(text="No blade is chosen.", icon="INFO")
@@ -43,7 +44,25 @@ class Main(Sidebar, bpy.types.Panel):
         row = layout.row(align=True)
         for look, label, _ in LOOKS:
             row.operator("coolinggen.look", text=label, depress=settings.look == look).look = look
+        if settings.look == "THICKNESS":
+            _legend(layout, collection)
         _state(layout, collection)
+
+
+def _legend(layout, collection) -> None:
+    """Which colour means which thickness."""
+    settings, ramp = collection.coolinggen, thickness.ramp(collection)
+    if ramp is None:
+        return
+    box = layout.box()
+    box.label(text="Wall thickness (mm); grey: no wall")
+    box.template_color_ramp(ramp, "color_ramp")
+    row = box.row(align=True)
+    ends = row.row(align=True)
+    ends.enabled = not settings.thickness_auto
+    ends.prop(settings, "thickness_low")
+    ends.prop(settings, "thickness_high")
+    row.prop(settings, "thickness_auto", toggle=True)
 
 
 def _state(layout, collection) -> None:
@@ -64,6 +83,17 @@ def _state(layout, collection) -> None:
                 box.label(text=fault.hint)
     elif settings.built and not blades.up_to_date(collection):
         layout.label(text="Shows an older design.", icon="INFO")
+    if settings.notice:
+        row = layout.row()
+        row.alert = settings.notice_is_bad
+        row.label(text=settings.notice, icon="ERROR" if settings.notice_is_bad else "CHECKMARK")
+    if settings.fit_mm >= 0.0:
+        row = layout.row()
+        row.label(
+            text=f"The object's {settings.fit_points} points: within {settings.fit_mm:.4f} mm",
+            icon="SNAP_FACE",
+        )
+        row.operator("coolinggen.farthest", text="", icon="CURSOR")
 
 
 class Things(bpy.types.UIList):
@@ -77,12 +107,12 @@ class Things(bpy.types.UIList):
 
 
 class DesignPanel(Sidebar):
-    """A part of the design: a field of it, or of its cooling."""
+    """Fields of the design, or of its cooling."""
 
     bl_parent_id = "COOLINGGEN_PT_main"
     bl_options = {"DEFAULT_CLOSED"}
     path = ""
-    field: forms.Field
+    fields: tuple[forms.Field, ...] = ()
 
     @classmethod
     def poll(cls, context):
@@ -94,7 +124,26 @@ class DesignPanel(Sidebar):
         owner = design.path_resolve(self.path) if self.path else design
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
-        _draw(self.layout, owner, self.path, self.field, headed=False)
+        for field in self.fields:
+            _draw(self.layout, owner, self.path, field, headed=False)
+
+
+class CoolingPanel(DesignPanel):
+    """The cooling's own fields; its parts have panels below this one."""
+
+    bl_options = set()
+    path = "cooling"
+
+    @classmethod
+    def poll(cls, context):
+        return blades.active(context) is not None
+
+    def draw_header(self, context):
+        self.layout.prop(blades.active(context).coolinggen.design, "cooling_given", text="")
+
+    def draw(self, context):
+        if blades.active(context).coolinggen.design.cooling_given:
+            DesignPanel.draw(self, context)
 
 
 def _draw(layout, owner, path: str, field: forms.Field, headed: bool = True) -> None:
@@ -209,38 +258,78 @@ class Measured(Sidebar, bpy.types.Panel):
         report = json.loads(blades.active(context).coolinggen.report)
         column = self.layout.column(align=True)
         for name, solid in report["solids"].items():
-            row = column.row()
-            row.label(text=name)
-            row.label(text=f"{solid['volume_mm3']:.1f} mm³")
+            _measure(column, name, f"{solid['volume_mm3']:.1f} mm³")
+        if wall := report.get("wall_thickness_mm"):
+            _measure(column, "thinnest wall", f"{wall['min']:.3f} mm, {wall['face']}")
+
+
+def _measure(column, what: str, value: str) -> None:
+    row = column.row()
+    row.label(text=what)
+    row.label(text=value)
+
+
+class Faces(Sidebar, bpy.types.Panel):
+    """What can be done with the faces by their names"""
+
+    bl_idname = "COOLINGGEN_PT_faces"
+    bl_label = "Faces by Name"
+    bl_parent_id = "COOLINGGEN_PT_main"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return blades.active(context) is not None
+
+    def draw(self, _context):
+        self.layout.operator("coolinggen.select_faces")
+        self.layout.operator("coolinggen.vertex_groups")
 
 
 def _parts() -> list[type]:
-    """A panel for each field of the design, and for each of its cooling."""
-    made = []
+    """Panels for the fields of the design and of its cooling: one for the plain ones, one each for others."""
+    made = [_panel("design", "Design", "The design's name and what it is about.", _plain(FORM))]
     for field in FORM.fields:
         if field.key == "cooling":
-            made += [_part(each, "cooling") for each in field.shape.fields if not _is_plain(each)]
+            cooling: forms.Group = field.shape
+            top = _panel(field.key, field.title, field.description, _plain(cooling), CoolingPanel)
+            made.append(top)
+            made += [
+                _panel(
+                    f"cooling_{part.key}",
+                    part.title,
+                    part.description,
+                    (part,),
+                    path="cooling",
+                    bl_parent_id=top.bl_idname,
+                )
+                for part in cooling.fields
+                if not _is_plain(part)
+            ]
         elif not _is_plain(field):
-            made.append(_part(field, ""))
+            made.append(_panel(field.key, field.title, field.description, (field,)))
     return made
+
+
+def _plain(group: forms.Group) -> tuple[forms.Field, ...]:
+    return tuple(field for field in group.fields if _is_plain(field))
 
 
 def _is_plain(field: forms.Field) -> bool:
     return not isinstance(field.shape, forms.Group | forms.Variants | forms.List)
 
 
-def _part(field: forms.Field, path: str) -> type:
-    name = f"COOLINGGEN_PT_{path}_{field.key}" if path else f"COOLINGGEN_PT_{field.key}"
-    about = {
-        "bl_idname": name,
-        "bl_label": field.title,
-        "__doc__": field.description,
-        "path": path,
-        "field": field,
-    }
-    return type(name, (DesignPanel, bpy.types.Panel), about)
+def _panel(
+    key: str, label: str, about: str, fields: tuple[forms.Field, ...], kind=DesignPanel, **more
+) -> type:
+    name = f"COOLINGGEN_PT_{key}"
+    return type(
+        name,
+        (kind, bpy.types.Panel),
+        {"bl_idname": name, "bl_label": label, "__doc__": about, "fields": fields, **more},
+    )
 
 
-CLASSES = [Things, Main, *_parts(), Measured]
+CLASSES = [Things, Main, *_parts(), Faces, Measured]
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

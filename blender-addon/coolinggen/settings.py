@@ -6,6 +6,8 @@ from bpy.props import (
     CollectionProperty,
     EnumProperty,
     FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
     PointerProperty,
     StringProperty,
 )
@@ -13,6 +15,7 @@ from bpy.props import (
 from . import properties
 from .live import changed
 from .schema import FORM
+from .thickness import recolour
 from .views import LOOKS
 
 _DESIGN = properties.classes(FORM)
@@ -64,6 +67,30 @@ class BladeSettings(bpy.types.PropertyGroup):
     report: StringProperty(name="Report", description="What was measured, JSON")
     failure: StringProperty(name="Failure", description="Why the design is not shown")
     faults: CollectionProperty(type=Fault)
+    notice: StringProperty(
+        name="Notice", description="What came of the last thing done", options={"SKIP_SAVE"}
+    )
+    notice_is_bad: BoolProperty(options={"SKIP_SAVE"})
+    fit_mm: FloatProperty(
+        name="Fit", description="Greatest distance of the object's points from the blade, mm", default=-1.0
+    )
+    fit_points: IntProperty(name="Points", description="How many points of the object were compared")
+    fit_at: FloatVectorProperty(name="Where", description="The farthest of them", subtype="TRANSLATION")
+    thickness_ramp: PointerProperty(
+        name="Wall thickness", description="The material of the walls' colours", type=bpy.types.Material
+    )
+    thickness_auto: BoolProperty(
+        name="Auto",
+        description="The scale reaches as far as the walls' thickness",
+        default=True,
+        update=recolour,
+    )
+    thickness_low: FloatProperty(
+        name="From", description="Thickness of the first colour, mm", min=0.0, precision=3, update=recolour
+    )
+    thickness_high: FloatProperty(
+        name="To", description="Thickness of the last colour, mm", min=0.0, precision=3, update=recolour
+    )
 
 
 CLASSES = [*_DESIGN, Fault, BladeSettings]

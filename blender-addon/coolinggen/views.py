@@ -1,19 +1,25 @@
 """How a blade is looked at: cut open, with glassy metal, its coolant alone; a camera that goes round it."""
 
+import contextlib
 import math
 
 import bpy
 from mathutils import Vector
 
-from . import blades
+from . import blades, thickness
 
 LOOKS = [
     ("WHOLE", "Whole", "All solids"),
     ("CUT", "Cut open", "All solids, cut through by a plane that can be moved"),
     ("GLASS", "Glass", "The metal see-through, the walls of its passages not"),
     ("COOLANT", "Coolant", "The coolant alone"),
+    ("THICKNESS", "Thickness", "The metal by the thickness of its walls"),
 ]
+#: Looks for which the coolant would hide what is to be seen: the walls of the passages.
+WITHOUT_COOLANT = ("CUT", "GLASS", "THICKNESS")
 
+#: The object's property with the look that it was last given.
+SHOWN = "coolinggen_look"
 #: Name of the modifier that cuts a solid open.
 CUT = "CoolingGen cut"
 #: The object's property that marks the body that cuts.
@@ -27,21 +33,36 @@ OPAQUE = "coolinggen_alpha"
 def show(collection, look: str) -> None:
     """Shows the blade in ``collection`` as ``look`` says."""
     collection.coolinggen.look = look
+    for solid in blades.objects(collection).values():
+        solid.pop(SHOWN, None)
+    again(collection)
+
+
+def again(collection) -> None:
+    """Shows what a blade got since its look was chosen as that says; the rest stays as the user has it."""
+    look = collection.coolinggen.look
     solids = blades.objects(collection)
-    cutter = _cutter(collection) if look == "CUT" else None
+    cutter = _cutter(collection) if look == "CUT" and solids else None
     wetted = {
         layer for name, found in solids.items() if _is_coolant(name) for layer in blades.layers(found.data)
     }
     for name, found in solids.items():
         inside = _is_coolant(name)
-        # Cut open and in glass the walls of the passages are seen, which the coolant would hide.
-        hidden = inside if look in ("CUT", "GLASS") else look == "COOLANT" and not inside
-        found.hide_set(hidden)
-        found.hide_render = hidden
-        _cut(found, cutter)
+        if found.get(SHOWN) != look:
+            found[SHOWN] = look
+            hidden = inside if look in WITHOUT_COOLANT else look == "COOLANT" and not inside
+            # Where its collection is left out of the view layer, nothing has to be hidden.
+            with contextlib.suppress(RuntimeError):
+                found.hide_set(hidden)
+            found.hide_render = hidden
+            _cut(found, cutter)
         if not inside:
             for layer, material in zip(blades.layers(found.data), found.data.materials, strict=False):
                 _glass(material, look == "GLASS" and layer not in wetted)
+    if look == "THICKNESS":
+        thickness.show(collection)
+    else:
+        thickness.hide(collection)
 
 
 def _is_coolant(solid: str) -> bool:
@@ -106,13 +127,19 @@ def _glass(material, on: bool) -> None:
         material.surface_render_method = "BLENDED" if on else "DITHERED"
 
 
-def turntable(scene, middle: Vector, radius: float, frames: int, elevation: float) -> None:
-    """A camera and a sun that go once round ``middle`` in so many frames, all within ``radius`` in view."""
+def turntable(scene, corners: list[Vector], frames: int, elevation: float) -> None:
+    """A camera and a sun that go once round the box of ``corners`` in so many frames, all of it in view."""
+    low, high = Vector(map(min, zip(*corners, strict=True))), Vector(map(max, zip(*corners, strict=True)))
+    middle, (across, height) = (low + high) / 2, ((high - low).xy.length / 2, (high - low).z / 2)
     pivot = bpy.data.objects.new("CoolingGen turntable", None)
     scene.collection.objects.link(pivot)
     pivot.location = middle
     camera = bpy.data.objects.new("CoolingGen camera", bpy.data.cameras.new("CoolingGen camera"))
-    distance = radius / math.sin(min(camera.data.angle_x, camera.data.angle_y) / 2) * 1.05
+    # The field of view is the picture's greater side's.
+    wide, tall = scene.render.resolution_x, scene.render.resolution_y
+    tangent = math.tan(camera.data.angle / 2) / max(wide, tall)
+    up = height * math.cos(elevation) + across * abs(math.sin(elevation))
+    distance = 1.05 * (across + max(across / (tangent * wide), up / (tangent * tall)))
     camera.data.clip_start, camera.data.clip_end = distance * 1e-3, distance * 10
     camera.location = distance * Vector((0, -math.cos(elevation), math.sin(elevation)))
     camera.rotation_euler = (math.pi / 2 - elevation, 0, 0)

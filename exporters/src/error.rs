@@ -37,7 +37,7 @@ pub enum ExportError {
         /// Name of the face.
         face: String,
     },
-    /// A mesh or file too large for its format's 32-bit counters.
+    /// A mesh or file too large for its format's counters.
     TooLarge {
         /// What overflows.
         what: &'static str,
@@ -60,7 +60,7 @@ impl fmt::Display for ExportError {
                 write!(f, "face `{face}`: its border crosses itself in the parameters of its surface")
             }
             Self::Stopped => write!(f, "it was told to stop"),
-            Self::TooLarge { what } => write!(f, "{what} do not fit the format's 32-bit counters"),
+            Self::TooLarge { what } => write!(f, "{what} do not fit the format's counters"),
         }
     }
 }

@@ -43,6 +43,12 @@ impl Materials {
     }
 }
 
+/// A linear component as STEP and IGES have it: a display value (sRGB), which is how OpenCASCADE reads and writes them.
+pub(crate) fn display_value(linear: f64) -> f64 {
+    let c = linear.clamp(0.0, 1.0);
+    if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
+}
+
 /// A name as one word of a text format: white space and control characters become underscores.
 pub(crate) fn word(name: &str) -> String {
     let word: String =

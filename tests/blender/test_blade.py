@@ -45,6 +45,24 @@ def test_meshes(template):
         assert (np.einsum("ijk,ijk->ij", given, flat) > 0.5).mean() > 0.999, name
 
 
+def test_normals_survive_what_cycles_does(rotor):
+    """It parts a mesh at its sharp edges and then has one normal a point."""
+    for name, found in solids(rotor).items():
+        parted = found.data.copy()
+        before = len(parted.vertices)
+        parted.split_faces()
+        assert len(parted.vertices) > before, name
+        normals = np.empty(3 * len(parted.loops), np.float32)
+        parted.corner_normals.foreach_get("vector", normals)
+        corners = np.empty(len(parted.loops), np.int32)
+        parted.attributes[".corner_vert"].data.foreach_get("value", corners)
+        one = np.empty((len(parted.vertices), 3), np.float32)
+        one[corners] = normals.reshape(-1, 3)
+        alike = np.einsum("ij,ij->i", one[corners], normals.reshape(-1, 3))
+        # Edges that fade out, as fillets do, leave a few points with two.
+        assert (alike > np.cos(np.radians(3))).mean() > 0.995, name
+
+
 @pytest.mark.parametrize("scale", [1.0, 0.001, 0.01])
 def test_size_at_any_scale_of_the_scene(scale):
     bpy.context.scene.unit_settings.scale_length = scale
@@ -119,6 +137,101 @@ def test_faces_are_selected_by_name(rotor):
     assert chosen * 1e6 == pytest.approx(blade, rel=0.01)
 
 
+def test_vertex_groups_of_faces_follow(rotor):
+    meshes = importlib.import_module(f"{MODULE}.meshes")
+    metal = solids(rotor)["metal"]
+    bpy.context.view_layer.objects.active = metal
+    metal.vertex_groups.new(name="own")
+    assert bpy.ops.coolinggen.vertex_groups(pattern="chamber/*") == {"FINISHED"}
+
+    def grouped() -> dict[str, set[int]]:
+        names = [group.name for group in metal.vertex_groups]
+        found = {name: set() for name in names}
+        for vertex in metal.data.vertices:
+            for entry in vertex.groups:
+                assert entry.weight == 1.0
+                found[names[entry.group]].add(vertex.index)
+        return found
+
+    def true() -> dict[str, set[int]]:
+        names = meshes.face_names(metal.data)
+        found = {name: set() for name in names if name.startswith("chamber/")}
+        number = metal.data.attributes[meshes.FACE_ATTRIBUTE].data
+        for polygon in metal.data.polygons:
+            if (name := names[number[polygon.index].value]) in found:
+                found[name] |= set(polygon.vertices)
+        return found
+
+    before = true()
+    assert len(before) > 5 and grouped() == {"own": set(), **before}
+    cooling = rotor.coolinggen.design.cooling
+    bpy.ops.coolinggen.edit_list(path="cooling.walls", deed="REMOVE", index=len(cooling.walls) - 1)
+    bpy.ops.coolinggen.edit_list(path="cooling.chambers", deed="REMOVE", index=1)
+    assert bpy.ops.coolinggen.update() == {"FINISHED"}
+    after = true()
+    assert grouped() == {"own": set(), **after} and set(after) != set(before)
+    assert bpy.ops.coolinggen.vertex_groups(pattern="") == {"FINISHED"}
+    assert [group.name for group in metal.vertex_groups] == ["own"]
+
+
+def test_walls_are_coloured_by_their_thickness(rotor):
+    thickness = importlib.import_module(f"{MODULE}.thickness")
+    scale = importlib.import_module(f"{MODULE}.client.thickness")
+    metal, settings = solids(rotor)["metal"], rotor.coolinggen
+    own = [slot.material for slot in metal.material_slots]
+    assert bpy.ops.coolinggen.look(look="THICKNESS") == {"FINISHED"}
+    values = thickness._read(metal.data)
+    walls = values[values >= 0]
+    least = report(rotor)["wall_thickness_mm"]["min"]
+    # The report looks closer than at the corners of triangles.
+    assert least - 1e-6 <= walls.min() < least + 0.2
+    assert settings.thickness_low == pytest.approx(walls.min())
+    assert settings.thickness_low < settings.thickness_high <= walls.max()
+    assert (values < 0).any()
+
+    def seen() -> np.ndarray:
+        colors = np.empty(4 * len(values), np.float32)
+        metal.data.color_attributes[thickness.COLORS].data.foreach_get("color", colors)
+        return colors.reshape(-1, 4)
+
+    def told(color) -> pytest.approx:
+        return pytest.approx(thickness._linear(color), abs=0.02)
+
+    assert metal.data.color_attributes.active_color.name == thickness.COLORS
+    assert seen()[values.argmin()].tolist() == told(scale.NONE)
+    assert seen()[np.where(values < 0, 99, values).argmin()].tolist() == told(scale.SCALE[0])
+    assert seen()[values.argmax()].tolist() == told(scale.SCALE[-1])
+    assert all(slot.material == settings.thickness_ramp for slot in metal.material_slots)
+    assert solids(rotor)["coolant/leading"].hide_get()
+    # The scale is the user's when it is taken.
+    settings.thickness_auto = False
+    settings.thickness_low = float(walls.max())
+    assert seen()[values.argmax()].tolist() == told(scale.SCALE[0])
+    rotor.coolinggen.design.cooling.shell.suction_side_varies = False
+    rotor.coolinggen.design.cooling.shell.suction_side = 1.5
+    assert bpy.ops.coolinggen.update() == {"FINISHED"}
+    assert len(thickness._read(metal.data)) == len(metal.data.loops)
+    assert settings.thickness_low == pytest.approx(float(walls.max()))
+    assert bpy.ops.coolinggen.look(look="WHOLE") == {"FINISHED"}
+    assert [slot.material for slot in metal.material_slots] == own
+    assert {slot.link for slot in metal.material_slots} == {"DATA"}
+
+
+def test_a_look_stays_when_the_blade_changes(rotor):
+    design, names = blades().design(rotor), set(solids(rotor))
+    bpy.ops.coolinggen.look(look="CUT")
+    solids(rotor)["metal"].hide_set(True)
+    cooling = rotor.coolinggen.design.cooling
+    bpy.ops.coolinggen.edit_list(path="cooling.walls", deed="REMOVE", index=len(cooling.walls) - 1)
+    bpy.ops.coolinggen.edit_list(path="cooling.chambers", deed="REMOVE", index=1)
+    assert bpy.ops.coolinggen.update() == {"FINISHED"}
+    gone = names - set(solids(rotor))
+    blades().set_design(rotor, design)
+    assert bpy.ops.coolinggen.update() == {"FINISHED"} and gone
+    # What came is hidden as the look says, what the user has hidden is left so.
+    assert all(solids(rotor)[name].hide_get() for name in (*gone, "metal"))
+
+
 def test_looks(rotor):
     found = solids(rotor)
     for look in ("CUT", "GLASS", "COOLANT", "WHOLE"):
@@ -142,6 +255,21 @@ def test_turntable(rotor):
         scene.frame_set(frame)
         seen.add(tuple(round(x, 5) for x in scene.camera.matrix_world.translation))
     assert len(seen) == 8 and scene.frame_end == 8
+
+
+def test_an_export_that_fails_says_why(rotor, tmp_path):
+    rotor.coolinggen.design.cooling.chambers[0].fillet_radius_varies = False
+    rotor.coolinggen.design.cooling.chambers[0].fillet_radius = 500.0
+    with pytest.raises(RuntimeError, match="/cooling/chambers/0/fillet_radius"):
+        bpy.ops.coolinggen.export(directory=str(tmp_path))
+    assert rotor.coolinggen.notice_is_bad and not list(tmp_path.iterdir())
+
+
+def test_an_export_is_what_was_asked_for_and_leaves_no_model(rotor, tmp_path):
+    service = importlib.import_module(f"{MODULE}.service")
+    assert bpy.ops.coolinggen.export(directory=str(tmp_path), formats={"stl"}) == {"FINISHED"}
+    assert "files in" in rotor.coolinggen.notice and not rotor.coolinggen.notice_is_bad
+    assert not [name for name in service.sidecar("").call("model/list")["models"] if "export" in name]
 
 
 def test_export(rotor, tmp_path):

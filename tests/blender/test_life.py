@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import importlib
 import json
+import signal
 import stat
 import sys
+import time
 
 import bpy
 import pytest
@@ -22,11 +24,14 @@ def test_nothing_is_left_when_it_is_disabled():
         return {name for name in dir(bpy.types) if "COOLINGGEN" in name.upper()}
 
     assert known() and hasattr(bpy.types.Collection, "coolinggen")
-    timers, handlers = part("live")._tick, len(bpy.app.handlers.undo_post)
+    timers = part("live")._tick
     for _ in range(2):
         bpy.ops.preferences.addon_disable(module=MODULE)
         assert not known() and not hasattr(bpy.types.Collection, "coolinggen")
-        assert not bpy.app.timers.is_registered(timers) and len(bpy.app.handlers.undo_post) == handlers - 1
+        assert not bpy.app.timers.is_registered(timers) and not dir(bpy.ops.coolinggen)
+        for listed in ("undo_post", "redo_post", "load_pre"):
+            left = [getattr(each, "__module__", "") for each in getattr(bpy.app.handlers, listed)]
+            assert not [name for name in left if name.startswith(MODULE)], listed
         bpy.ops.preferences.addon_enable(module=MODULE)
     assert known()
 
@@ -108,6 +113,25 @@ def test_the_sidecar_is_started_again_when_it_has_died(rotor):
     assert bpy.ops.coolinggen.update() == {"FINISHED"}
 
 
+def test_a_sidecar_that_is_killed_at_work_is_told(rotor):
+    blades, live, service = part("blades"), part("live"), part("service")
+    faces = len(blades.objects(rotor)["metal"].data.polygons)
+    rotor.coolinggen.chord_mm = 0.001
+    server = service.sidecar("")
+    # It cannot be done before it is dead.
+    server._process.send_signal(signal.SIGSTOP)
+    live._start(rotor)
+    while not server._waiting:
+        time.sleep(0.01)
+    assert live.busy(rotor)
+    server._process.kill()
+    part("beside").wait(live._key(rotor.session_uid))
+    assert "has ended" in rotor.coolinggen.failure
+    assert len(blades.objects(rotor)["metal"].data.polygons) == faces
+    rotor.coolinggen.chord_mm = 0.05
+    assert bpy.ops.coolinggen.update() == {"FINISHED"} and not rotor.coolinggen.failure
+
+
 def test_a_program_that_is_no_sidecar_is_told(rotor, tmp_path):
     service = part("service")
     service.stop()
@@ -133,7 +157,7 @@ def test_changes_wait_for_the_last_and_can_be_given_up(rotor):
     for tip in (2.0, 2.1, 2.2):
         cooling.shell.tip = tip
     assert live.busy(rotor)
-    live.cancel()
+    assert bpy.ops.coolinggen.cancel() == {"FINISHED"}
     assert not live.busy(rotor) and rotor.coolinggen.built == shown
     rotor.coolinggen.live = False
     cooling.shell.tip = 2.3

@@ -13,7 +13,16 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 BINARY = Path(os.environ.get("COOLINGGEN", REPOSITORY / "target/release/coolinggen")).resolve()
 SAMPLES = Path(os.environ.get("COOLINGGEN_SAMPLES", REPOSITORY / "samples")).resolve()
 #: Formats of files a part, with what the files' names end with, and those of one file for all parts.
-FORMATS = {"step": "step", "brep": "brep", "glb": "glb", "obj": "obj", "stl": "stl", "nastran": "nas"}
+FORMATS = {
+    "step": "step",
+    "brep": "brep",
+    "iges": "igs",
+    "iges_surfaces": "surfaces.igs",
+    "glb": "glb",
+    "obj": "obj",
+    "stl": "stl",
+    "nastran": "nas",
+}
 WHOLE = {"gmsh": "gmsh.py", "openfoam": "openfoam"}
 
 DONE, OTHER, REFUSED = 0, 1, 2

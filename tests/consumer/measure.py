@@ -31,6 +31,12 @@ def volume_adaptive(shape: TopoDS_Shape, accuracy: float = 1e-6) -> float:
     return properties.Mass()
 
 
+def area(shape: TopoDS_Shape) -> float:
+    properties = GProp_GProps()
+    BRepGProp.SurfaceProperties_s(shape, properties)
+    return properties.Mass()
+
+
 def box(shape: TopoDS_Shape) -> np.ndarray:
     """[[least x, y, z], [greatest x, y, z]] of the exact geometry, tolerances left out."""
     found = Bnd_Box()

@@ -44,8 +44,10 @@ def test_areas_of_faces_add_up(model):
 
 
 def test_every_file_is_there_and_no_other(model):
-    expected = {f"{model.name}.{part}.{kind}" for part in model.parts for kind in cli.FORMATS.values()}
-    expected |= {f"{model.name}.assembly.{kind}" for kind in ("step", "brep", "glb", "nas")}
+    endings = [*cli.FORMATS.values(), "centaur.csv"]
+    expected = {f"{model.name}.{part}.{ending}" for part in model.parts for ending in endings}
+    together = [ending for ending in endings if ending not in ("obj", "stl")]
+    expected |= {f"{model.name}.assembly.{ending}" for ending in together}
     expected |= {f"{model.name}.{kind}" for kind in ("report.json", "groups.json", *cli.WHOLE.values())}
     found = {path.name for path in model.folder.iterdir()}
     assert expected <= found

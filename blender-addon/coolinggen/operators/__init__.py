@@ -2,8 +2,12 @@
 
 import bpy
 
-from . import building, designs, faces, files, lists, views
+from . import building, designs, drawn, faces, files, groups, lists, views
 
-CLASSES = [each for module in (designs, building, files, lists, faces, views) for each in module.CLASSES]
+CLASSES = [
+    each
+    for module in (designs, drawn, building, files, lists, faces, groups, views)
+    for each in module.CLASSES
+]
 
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -3,7 +3,7 @@
 import bpy
 
 from .. import blades, live
-from .designs import follow
+from .following import follow
 
 
 class Update(bpy.types.Operator):

@@ -7,8 +7,9 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from .. import blades, live
+from .. import blades
 from ..templates import TEMPLATES
+from .following import follow
 
 
 def begin(operator, context, design: dict, folder: str) -> set[str]:
@@ -18,18 +19,6 @@ def begin(operator, context, design: dict, folder: str) -> set[str]:
     if layer is not None:
         context.view_layer.active_layer_collection = layer
     return follow(operator, collection)
-
-
-def follow(operator, collection) -> set[str]:
-    """Builds a blade: beside the window where there is one, else before it returns."""
-    if not bpy.app.background:
-        live.touch(collection, 0.0)
-        return {"FINISHED"}
-    live.update(collection)
-    if collection.coolinggen.failure:
-        operator.report({"ERROR"}, collection.coolinggen.failure)
-        return {"CANCELLED"}
-    return {"FINISHED"}
 
 
 class NewBlade(bpy.types.Operator):

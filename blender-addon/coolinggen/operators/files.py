@@ -1,12 +1,14 @@
-"""Files of a blade for other programs, written by the sidecar."""
+"""Files of a blade for other programs, written by the sidecar beside the window."""
 
+from functools import partial
 from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
-from .. import blades, live, service
-from ..client.sidecar import SidecarError
+from .. import beside, blades, building, live, service
+from ..client.latest import Done
+from .following import ended
 
 FORMATS = [
     ("step", "STEP", "Exact solids for CAD"),
@@ -36,31 +38,24 @@ class Export(bpy.types.Operator):
 
     def execute(self, context):
         collection = blades.active(context)
-        order = blades.order(collection)
+        order, preferred = blades.order(collection), service.preferred()
         folder = Path(bpy.path.abspath(self.directory)).resolve()
-        tolerances = {"chord_mm": order.chord_mm, "angle_deg": order.angle_deg}
-        if not blades.up_to_date(collection):
-            live.update(collection)
-        if collection.coolinggen.failure:
-            self.report({"ERROR"}, collection.coolinggen.failure)
-            return {"CANCELLED"}
-        try:
-            server = service.sidecar(service.preferred())
-            if order.model not in server.call("model/list")["models"]:
-                where = {"folder": order.folder} if order.folder else {}
-                server.call("design/generate", model=order.model, design=order.design, report=False, **where)
-            written = server.call(
-                "model/export",
-                model=order.model,
-                folder=str(folder),
-                formats=sorted(self.formats),
-                **tolerances,
-            )
-        except SidecarError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"{len(written['files'])} files in {folder}")
-        return {"FINISHED"}
+        formats = sorted(self.formats)
+        key = collection.session_uid, "export"
+        beside.start(
+            key,
+            lambda watch: building.export(order, folder, formats, lambda: service.sidecar(preferred), watch),
+            partial(_ended, collection.session_uid, folder),
+        )
+        return ended(self, collection, key)
+
+
+def _ended(uid: int, folder: Path, done: Done):
+    if done.error is None:
+        told = f"{len(done.result)} files in {folder}"
+    else:
+        told = f"Not exported: {live.reason(done.error)}"
+    yield live.with_blade(uid, lambda collection: blades.tell(collection, told, bad=done.error is not None))
 
 
 CLASSES = [Export]

@@ -6,11 +6,12 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty
 from mathutils import Vector
 
-from .. import blades, views
+from .. import blades, thickness, views
+from .following import follow
 
 
 class Look(bpy.types.Operator):
-    """Shows the active blade whole, cut open, with glassy metal, or its coolant alone"""
+    """Shows the active blade whole, cut open, in glass, its coolant alone, or its walls by their thickness"""
 
     bl_idname = "coolinggen.look"
     bl_label = "Look"
@@ -23,8 +24,22 @@ class Look(bpy.types.Operator):
         return blades.active(context) is not None
 
     def execute(self, context):
-        views.show(blades.active(context), self.look)
+        collection = blades.active(context)
+        views.show(collection, self.look)
+        _shade(context.space_data, self.look)
+        if self.look == "THICKNESS" and not thickness.measured(collection):
+            return follow(self, collection)
         return {"FINISHED"}
+
+
+def _shade(space, look: str) -> None:
+    """Lets a solid view show the walls' colours, and the materials' again."""
+    if space is None or space.type != "VIEW_3D":
+        return
+    if look == "THICKNESS":
+        space.shading.color_type = "VERTEX"
+    elif space.shading.color_type == "VERTEX":
+        space.shading.color_type = "MATERIAL"
 
 
 class Turntable(bpy.types.Operator):
@@ -49,9 +64,7 @@ class Turntable(bpy.types.Operator):
             for found in blades.objects(collection).values()
             for corner in found.bound_box
         ]
-        low = Vector(map(min, zip(*corners, strict=True)))
-        high = Vector(map(max, zip(*corners, strict=True)))
-        views.turntable(context.scene, (low + high) / 2, (high - low).length / 2, self.frames, self.elevation)
+        views.turntable(context.scene, corners, self.frames, self.elevation)
         return {"FINISHED"}
 
 

@@ -140,7 +140,7 @@ impl Law {
         let (mut low, mut high) = (0.0, 1.0);
         let mut t = (v - first.x) / (last.x - first.x);
         for _ in 0..100 {
-            let [p, d, _] = curve.derivatives(t);
+            let [p, d] = curve.first_derivatives(t);
             let miss = p.x - v;
             if miss > 0.0 {
                 high = t;
@@ -154,7 +154,7 @@ impl Law {
             }
             t = next;
         }
-        let [p, d, _] = curve.derivatives(t);
+        let [p, d] = curve.first_derivatives(t);
         (p.y, d.y / d.x)
     }
 

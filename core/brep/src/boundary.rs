@@ -25,7 +25,7 @@ impl Path<'_> {
     }
 
     /// A rectangle that holds the piece.
-    fn hull(&self) -> (DVec2, DVec2) {
+    pub(crate) fn hull(&self) -> (DVec2, DVec2) {
         match *self {
             Self::Line { from, to } => (from.min(to), from.max(to)),
             Self::Spline { cursor, .. } => {

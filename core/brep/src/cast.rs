@@ -4,6 +4,7 @@ use crate::geometry::SurfaceGeometry;
 use crate::model::{FaceId, Model};
 use coolinggen_nurbs::ParametricSurface;
 use glam::{DVec2, DVec3};
+use std::ops::Range;
 
 /// Faces as coarse triangles, to find which a line meets; exact positions are for Newton's method to find.
 #[derive(Clone, Debug)]
@@ -14,15 +15,18 @@ pub struct Caster {
 #[derive(Clone, Debug)]
 struct CastFace {
     id: FaceId,
-    bounds: Bounds,
-    strips: Vec<Strip>,
+    nodes: Vec<Node>,
+    triangles: Vec<[(DVec3, DVec2); 3]>,
 }
 
-/// The triangles between two neighbouring lines of constant u.
+/// Triangles that lie together, and the boxes about them: a tree, laid out so that a node's parts follow it.
 #[derive(Clone, Debug)]
-struct Strip {
+struct Node {
     bounds: Bounds,
-    triangles: Vec<[(DVec3, DVec2); 3]>,
+    /// Index of the node after all of its parts.
+    next: usize,
+    /// Its triangles, where it has no parts.
+    triangles: Range<usize>,
 }
 
 /// An axis-parallel box.
@@ -56,12 +60,21 @@ impl Caster {
     /// The first meeting after `least` along the line.
     pub fn first(&self, origin: DVec3, direction: DVec3, least: f64) -> Option<CastHit> {
         let mut best: Option<CastHit> = None;
-        for face in self.faces.iter().filter(|f| f.bounds.may_meet(origin, direction)) {
-            let strips = face.strips.iter().filter(|s| s.bounds.may_meet(origin, direction));
-            for triangle in strips.flat_map(|s| &s.triangles) {
-                let Some((along, at)) = meet(triangle, origin, direction) else { continue };
-                if along > least && best.is_none_or(|b| along < b.along) {
-                    best = Some(CastHit { face: face.id, at, along });
+        let inverse = direction.recip();
+        for face in &self.faces {
+            let mut at_node = 0;
+            while let Some(node) = face.nodes.get(at_node) {
+                let farthest = best.map_or(f64::INFINITY, |b| b.along);
+                if !node.bounds.may_meet(origin, inverse, farthest) {
+                    at_node = node.next;
+                    continue;
+                }
+                at_node += 1;
+                for triangle in &face.triangles[node.triangles.clone()] {
+                    let Some((along, at)) = meet(triangle, origin, direction) else { continue };
+                    if along > least && best.is_none_or(|b| along < b.along) {
+                        best = Some(CastHit { face: face.id, at, along });
+                    }
                 }
             }
         }
@@ -70,18 +83,21 @@ impl Caster {
 }
 
 impl Bounds {
-    /// The box of points.
-    fn of(points: &[(DVec3, DVec2)]) -> Self {
-        let empty = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
-        points.iter().fold(empty, |b, (p, _)| Self { min: b.min.min(*p), max: b.max.max(*p) })
+    const EMPTY: Self = Self { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
+
+    /// The box of points and a little more: triangles reach beyond their sides, too.
+    fn of(points: impl Iterator<Item = DVec3>) -> Self {
+        let tight = points.fold(Self::EMPTY, |b, p| Self { min: b.min.min(p), max: b.max.max(p) });
+        let margin = DVec3::splat(2.0 * BEYOND * tight.min.distance(tight.max));
+        Self { min: tight.min - margin, max: tight.max + margin }
     }
 
-    /// Whether the line passes through the box, or a little beside it: triangles reach beyond their sides, too.
-    fn may_meet(&self, origin: DVec3, direction: DVec3) -> bool {
-        let margin = DVec3::splat(2.0 * BEYOND * self.min.distance(self.max));
-        let (a, b) = ((self.min - margin - origin) / direction, (self.max + margin - origin) / direction);
+    /// Whether the line passes through the box ahead of its origin and before `farthest`; `inverse` has the reciprocals
+    /// of its direction.
+    fn may_meet(&self, origin: DVec3, inverse: DVec3, farthest: f64) -> bool {
+        let (a, b) = ((self.min - origin) * inverse, (self.max - origin) * inverse);
         let (near, far) = (a.min(b).max_element(), a.max(b).min_element());
-        !(near > far) && !(far < 0.0)
+        !(near > far) && !(far < 0.0) && !(near > farthest)
     }
 }
 
@@ -100,15 +116,41 @@ fn cast_face(id: FaceId, surface: &SurfaceGeometry) -> Option<CastFace> {
             points.push((surface.point(at.x, at.y), at));
         }
     }
-    let strip = |line: &[(DVec3, DVec2)]| {
-        let (lower, upper) = line.split_at(STEPS.1 + 1);
-        let quads = lower.windows(2).zip(upper.windows(2));
-        let triangles = quads.flat_map(|(a, b)| [[a[0], b[0], b[1]], [a[0], b[1], a[1]]]);
-        Strip { bounds: Bounds::of(line), triangles: triangles.collect() }
-    };
-    let lines = points.windows(2 * (STEPS.1 + 1)).step_by(STEPS.1 + 1);
-    Some(CastFace { id, bounds: Bounds::of(&points), strips: lines.map(strip).collect() })
+    let mut face = CastFace { id, nodes: Vec::new(), triangles: Vec::with_capacity(2 * STEPS.0 * STEPS.1) };
+    face.add(&points, 0..STEPS.0, 0..STEPS.1);
+    Some(face)
 }
+
+impl CastFace {
+    /// Adds the node of the quadrangles `i` by `j`, and its parts.
+    fn add(&mut self, points: &[(DVec3, DVec2)], i: Range<usize>, j: Range<usize>) {
+        let place = |i: usize, j: usize| points[i * (STEPS.1 + 1) + j];
+        let inside = (i.start..=i.end).flat_map(|i| (j.start..=j.end).map(move |j| (i, j)));
+        let bounds = Bounds::of(inside.map(|(i, j)| place(i, j).0));
+        let node = self.nodes.len();
+        let first = self.triangles.len();
+        self.nodes.push(Node { bounds, next: 0, triangles: first..first });
+        if i.len() * j.len() <= LEAF {
+            for (i, j) in i.flat_map(|i| j.clone().map(move |j| (i, j))) {
+                let [a, b, c, d] = [place(i, j), place(i, j + 1), place(i + 1, j), place(i + 1, j + 1)];
+                self.triangles.extend([[a, c, d], [a, d, b]]);
+            }
+            self.nodes[node].triangles = first..self.triangles.len();
+        } else if i.len() >= j.len() {
+            let middle = i.start + i.len() / 2;
+            self.add(points, i.start..middle, j.clone());
+            self.add(points, middle..i.end, j);
+        } else {
+            let middle = j.start + j.len() / 2;
+            self.add(points, i.clone(), j.start..middle);
+            self.add(points, i, middle..j.end);
+        }
+        self.nodes[node].next = self.nodes.len();
+    }
+}
+
+/// Quadrangles that are not parted any more.
+const LEAF: usize = 2;
 
 /// How far beyond its sides a triangle is still met, relative to them.
 const BEYOND: f64 = 1e-6;

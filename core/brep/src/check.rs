@@ -10,6 +10,7 @@ use crate::model::{EdgeId, Face, FaceId, Loop, Model, Solid};
 use crate::probe::SurfaceProbe;
 use coolinggen_nurbs::ParametricCurve;
 pub(crate) use deviation::Gauge;
+pub use deviation::deviation_amid_spans;
 use std::collections::HashMap;
 
 /// Greatest distance between the end of an edge's curve and its vertex that passes, mm.

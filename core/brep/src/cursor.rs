@@ -56,8 +56,7 @@ impl<'a, V: VectorSpace> Cursor<'a, V> {
     pub(crate) fn four<const D: usize>(&mut self, t: Lanes) -> [Lanes; D] {
         let points = self.curve.points();
         self.seek(t.0[1]);
-        let (start, end) = (Lanes::from(self.span.start), Lanes::from(self.span.end));
-        if (start - t).max() <= 0.0 && (t - end).max() <= 0.0 {
+        if self.span.holds(t) {
             let (out, []) = self.span.four(t, points, points);
             return out;
         }

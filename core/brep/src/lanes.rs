@@ -10,26 +10,46 @@ pub(crate) trait Real:
 
 impl Real for f64 {}
 
-/// Four numbers.
+/// Four numbers, or `N`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Lanes(pub(crate) [f64; 4]);
+pub(crate) struct Lanes<const N: usize = 4>(pub(crate) [f64; N]);
 
-impl Real for Lanes {}
+impl<const N: usize> Real for Lanes<N> {}
 
-impl From<f64> for Lanes {
+impl<const N: usize> From<f64> for Lanes<N> {
     #[inline(always)]
     fn from(value: f64) -> Self {
-        Self([value; 4])
+        Self([value; N])
+    }
+}
+
+impl<const N: usize> Lanes<N> {
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        // A loop: closures of `array::map` are not always inlined.
+        let mut out = self.0;
+        for i in 0..N {
+            out[i] = f(out[i], other.0[i]);
+        }
+        Self(out)
+    }
+
+    #[inline(always)]
+    pub(crate) fn sqrt(self) -> Self {
+        let mut out = self.0;
+        for x in &mut out {
+            *x = x.sqrt();
+        }
+        Self(out)
+    }
+
+    #[inline(always)]
+    pub(crate) fn sum(self) -> f64 {
+        self.0.iter().sum()
     }
 }
 
 impl Lanes {
-    #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let (a, b) = (self.0, other.0);
-        Self([f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])])
-    }
-
     /// The greatest of the four; not a number if one of them is none.
     #[inline(always)]
     pub(crate) fn max(self) -> f64 {
@@ -60,7 +80,7 @@ impl Lanes {
     }
 }
 
-impl Add for Lanes {
+impl<const N: usize> Add for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -68,7 +88,7 @@ impl Add for Lanes {
     }
 }
 
-impl Sub for Lanes {
+impl<const N: usize> Sub for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -76,7 +96,7 @@ impl Sub for Lanes {
     }
 }
 
-impl Mul for Lanes {
+impl<const N: usize> Mul for Lanes<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {

@@ -4,9 +4,12 @@
 //! parameter inside. On B-splines both are polynomials between knots, which Gauss's rules integrate without error;
 //! on surfaces of revolution the integral over the angle is known; on planes all is known.
 
+mod cells;
 mod net;
+mod pairs;
 mod plane;
 mod revolution;
+mod ruled;
 mod spline;
 
 use crate::geometry::SurfaceGeometry;

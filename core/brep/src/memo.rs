@@ -4,12 +4,17 @@ use crate::geometry::{EdgeCurve, SurfaceGeometry};
 use crate::model::Coedge;
 use coolinggen_nurbs::{Curve, Homogeneous, Knots, Surface, VectorSpace};
 use glam::{DVec2, DVec3};
+use std::cell::OnceCell;
 use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 /// Everything that something was made from, bit by bit: what has an equal key is equal.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Key(Vec<u64>);
+#[derive(Clone, Debug, Default)]
+pub struct Key {
+    words: Vec<u64>,
+    /// Of the words, once it has been asked for: keys are long, and tables that grow ask again.
+    hash: OnceCell<u64>,
+}
 
 /// What a [`Key`] can hold.
 pub trait Content {
@@ -29,31 +34,57 @@ impl Key {
         content.write(&mut self);
         self
     }
+
+    fn push(&mut self, word: u64) {
+        self.words.push(word);
+        self.hash = OnceCell::new();
+    }
+
+    /// Mixes the words: nobody makes keys collide on purpose.
+    fn mixed(&self) -> u64 {
+        const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
+        let mix = |hash: u64, word: &u64| (hash.rotate_left(23) ^ word).wrapping_mul(FACTOR);
+        let hash = self.words.iter().fold(0, mix);
+        hash ^ (hash >> 29)
+    }
 }
 
-/// Hashes keys: they are long, and nobody makes them collide on purpose.
-#[derive(Clone, Copy, Debug, Default)]
-struct Mixer(u64);
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        self.words == other.words
+    }
+}
 
-impl Hasher for Mixer {
+impl Eq for Key {}
+
+impl Hash for Key {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        state.write_u64(*self.hash.get_or_init(|| self.mixed()));
+    }
+}
+
+/// Takes the hashes of keys as they are.
+#[derive(Clone, Copy, Debug, Default)]
+struct Mixed(u64);
+
+impl Hasher for Mixed {
     fn write(&mut self, bytes: &[u8]) {
-        const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
-        for chunk in bytes.chunks(8) {
-            let mut word = [0; 8];
-            word[..chunk.len()].copy_from_slice(chunk);
-            self.0 = (self.0.rotate_left(23) ^ u64::from_le_bytes(word)).wrapping_mul(FACTOR);
-        }
+        bytes.iter().for_each(|byte| self.write_u64(self.0.rotate_left(8) ^ u64::from(*byte)));
+    }
+
+    fn write_u64(&mut self, hash: u64) {
+        self.0 = hash;
     }
 
     fn finish(&self) -> u64 {
-        self.0 ^ (self.0 >> 29)
+        self.0
     }
 }
 
 /// Results by their keys. Each build is a round; what no round has used for a while is forgotten.
 #[derive(Clone, Debug)]
 pub struct Memo<T> {
-    kept: HashMap<Key, (T, u64), BuildHasherDefault<Mixer>>,
+    kept: HashMap<Key, (T, u64), BuildHasherDefault<Mixed>>,
     round: u64,
     /// Entries after the last round that came to an end.
     settled: usize,
@@ -121,37 +152,37 @@ impl<T: Clone> Memo<T> {
 
 impl Content for u64 {
     fn write(&self, key: &mut Key) {
-        key.0.push(*self);
+        key.push(*self);
     }
 }
 
 impl Content for usize {
     fn write(&self, key: &mut Key) {
-        key.0.push(*self as u64);
+        key.push(*self as u64);
     }
 }
 
 impl Content for bool {
     fn write(&self, key: &mut Key) {
-        key.0.push(u64::from(*self));
+        key.push(u64::from(*self));
     }
 }
 
 impl Content for f64 {
     fn write(&self, key: &mut Key) {
-        key.0.push(self.to_bits());
+        key.push(self.to_bits());
     }
 }
 
 impl Content for DVec2 {
     fn write(&self, key: &mut Key) {
-        self.to_array().map(f64::to_bits).iter().for_each(|bits| key.0.push(*bits));
+        self.to_array().map(f64::to_bits).iter().for_each(|bits| key.push(*bits));
     }
 }
 
 impl Content for DVec3 {
     fn write(&self, key: &mut Key) {
-        self.to_array().map(f64::to_bits).iter().for_each(|bits| key.0.push(*bits));
+        self.to_array().map(f64::to_bits).iter().for_each(|bits| key.push(*bits));
     }
 }
 
@@ -164,7 +195,7 @@ impl<V: VectorSpace + Content> Content for Homogeneous<V> {
 impl Content for str {
     fn write(&self, key: &mut Key) {
         self.len().write(key);
-        key.0.extend(self.bytes().map(u64::from));
+        self.bytes().for_each(|byte| key.push(u64::from(byte)));
     }
 }
 
@@ -177,6 +208,7 @@ impl<T: Content + ?Sized> Content for &T {
 impl<T: Content> Content for [T] {
     fn write(&self, key: &mut Key) {
         self.len().write(key);
+        key.words.reserve(size_of_val(self) / size_of::<u64>());
         self.iter().for_each(|entry| entry.write(key));
     }
 }

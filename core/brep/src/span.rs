@@ -73,6 +73,12 @@ impl Span {
         }
     }
 
+    /// Whether all four lie in it.
+    #[inline(always)]
+    pub(crate) fn holds(&self, t: Lanes) -> bool {
+        (Lanes::from(self.start) - t).max() <= 0.0 && (t - Lanes::from(self.end)).max() <= 0.0
+    }
+
     /// Along a curve the span looked for is mostly the next one.
     fn leave(&mut self, knots: &Knots, t: f64) {
         let next = self.index + 1;
@@ -103,7 +109,7 @@ impl Span {
     #[inline]
     pub(crate) fn slopes(&self, t: f64, values: &mut Weights, slopes: &mut Weights) {
         if self.degree == 3 {
-            let (n, d) = self.fixed_slopes::<4>(t);
+            let (n, d) = self.fixed_slopes::<4, f64>(t);
             values[..4].copy_from_slice(&n);
             slopes[..4].copy_from_slice(&d);
         } else {
@@ -113,7 +119,7 @@ impl Span {
 
     /// The `N` basis values at `t` for degree `N - 1`, kept in registers.
     #[inline(always)]
-    fn fixed_values<const N: usize, T: Real>(&self, t: T) -> [T; N] {
+    pub(crate) fn fixed_values<const N: usize, T: Real>(&self, t: T) -> [T; N] {
         let mut n = [T::from(0.0); N];
         n[0] = T::from(1.0);
         for j in 1..N {
@@ -123,16 +129,16 @@ impl Span {
     }
 
     #[inline(always)]
-    fn fixed_slopes<const N: usize>(&self, t: f64) -> ([f64; N], [f64; N]) {
+    pub(crate) fn fixed_slopes<const N: usize, T: Real>(&self, t: T) -> ([T; N], [T; N]) {
         let p = N - 1;
-        let (mut n, mut d) = ([0.0; N], [0.0; N]);
-        n[0] = 1.0;
+        let (mut n, mut d) = ([T::from(0.0); N], [T::from(0.0); N]);
+        n[0] = T::from(1.0);
         for j in 1..p {
             n = self.fixed_step(t, j, n);
         }
-        let mut before = 0.0;
+        let mut before = T::from(0.0);
         for r in 0..p {
-            let term = n[r] * self.inverse[p * (p - 1) / 2 + r] * p as f64;
+            let term = n[r] * T::from(self.inverse[p * (p - 1) / 2 + r]) * T::from(p as f64);
             d[r] = before - term;
             before = term;
         }
@@ -255,7 +261,7 @@ impl Span {
 
     #[inline(always)]
     fn fixed_slope<const N: usize, V: VectorSpace>(&self, t: f64, points: &[V]) -> (V, V) {
-        let (n, d) = self.fixed_slopes::<N>(t);
+        let (n, d) = self.fixed_slopes::<N, f64>(t);
         let (mut sum, mut slope) = (V::default(), V::default());
         for k in 0..N {
             (sum, slope) = (sum + points[k] * n[k], slope + points[k] * d[k]);

@@ -271,3 +271,55 @@ fn a_pitch_makes_as_few_jets_as_keep_it() {
     assert!(x <= 5.0 && x > 2.5, "{x}");
     assert!(y <= 8.0 && y > 7.0, "{y}");
 }
+
+/// Gap and plenum go on side by side below the hub, every inlet by the same length; metal and inserts stay what they are.
+#[test]
+fn inlets_beside_inserts_go_on_below_the_hub() {
+    const LENGTH: f64 = 60.0;
+    let jets = json!([array("ss", "suction_side", 2, 4)]);
+    // The leading chamber's gap is open at the hub, the middle one's is closed by a seat, the trailing one has no insert.
+    let inserts = json!([with_jets(insert("leading", 0.6), jets), insert("middle", 0.6)]);
+    let mut design = sample("rotor.json");
+    design["cooling"]["inserts"] = inserts;
+    let before = build(&design).unwrap().report;
+    design["cooling"]["inlet_extension"] = json!(LENGTH);
+    let generated = build(&design).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let report = &generated.report;
+    assert!(report.watertight);
+    let names = face_names(&generated);
+    for (solid, genus) in &report.genus {
+        assert_eq!(genus.found, Some(before.genus[solid].expected), "{solid}");
+    }
+    for solid in ["metal", "insert/leading", "insert/middle"] {
+        assert_eq!(report.solids[solid].volume_mm3, before.solids[solid].volume_mm3, "{solid}");
+    }
+    let inlets = ["leading", "leading/plenum", "middle/plenum", "trailing"];
+    for solid in ["coolant/leading", "coolant/middle/plenum", "coolant/trailing"] {
+        let area = |face: &&coolinggen_cooling::report::FaceReport| {
+            let inlet = inlets.iter().any(|name| face.name == format!("coolant/inlet/{name}"));
+            (inlet && face.solids.iter().any(|s| s == solid)).then_some(face.area_mm2)
+        };
+        let area: f64 = before.faces.iter().filter_map(|face| area(&face)).sum();
+        let added = report.solids[solid].volume_mm3 - before.solids[solid].volume_mm3;
+        assert!((added / (LENGTH * area) - 1.0).abs() < 0.01, "{solid}: {added}");
+    }
+    for name in inlets {
+        assert!(names.contains(&*format!("coolant/inlet/{name}/inlet_extension/8")), "{name}");
+    }
+    for k in 1..=8 {
+        let insert = |name: &str| format!("coolant/inlet/{name}/inlet_extension/insert/{k}");
+        assert!(names.contains(&*insert("leading")) && !names.contains(&*insert("middle/plenum")));
+    }
+    // The ducts of gap and plenum end in one plane, and all ducts run one way.
+    let plane = |name: &str| {
+        let face =
+            generated.blade.model.faces.iter().find(|f| f.name == format!("coolant/inlet/{name}")).unwrap();
+        match &face.surface {
+            coolinggen_brep::SurfaceGeometry::Plane(plane) => (plane.origin, plane.x.cross(plane.y)),
+            _ => panic!("{name} ends in no plane"),
+        }
+    };
+    let (origin, across) = plane("leading");
+    assert!((plane("leading/plenum").0 - origin).dot(across).abs() < 1e-9);
+    assert!(inlets.iter().all(|name| plane(name).1.angle_between(across) < 1e-9));
+}

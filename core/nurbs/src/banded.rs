@@ -40,21 +40,10 @@ impl BandedLu {
                 }
             }
         }
-        for i in 0..size {
-            let pivot = entries[i * stride + width];
-            if !(pivot.abs() > 1e-14) {
-                return Err(NurbsError::BadParameters { index: i });
-            }
-            for below in i + 1..(i + width + 1).min(size) {
-                let lead = below * stride + i + width - below;
-                let factor = entries[lead] / pivot;
-                entries[lead] = factor;
-                if factor != 0.0 {
-                    for k in 1..=width.min(size - 1 - i) {
-                        entries[lead + k] -= factor * entries[i * stride + width + k];
-                    }
-                }
-            }
+        match width {
+            // The usual width has loops of known length.
+            3 => eliminate::<3>(&mut entries, size, 3)?,
+            _ => eliminate::<0>(&mut entries, size, width)?,
         }
         Ok(Self { size, width, entries })
     }
@@ -77,4 +66,30 @@ impl BandedLu {
             right[i] = value * (1.0 / self.entries[i * stride + self.width]);
         }
     }
+}
+
+/// Gaussian elimination in place; `W` is the width, or 0 for any.
+#[inline(always)]
+fn eliminate<const W: usize>(entries: &mut [f64], size: usize, width: usize) -> Result<(), NurbsError> {
+    let width = if W > 0 { W } else { width };
+    let stride = 2 * width + 1;
+    for i in 0..size {
+        let (done, rest) = entries.split_at_mut((i + 1) * stride);
+        let row = &done[i * stride + width..];
+        let pivot = row[0];
+        if !(pivot.abs() > 1e-14) {
+            return Err(NurbsError::BadParameters { index: i });
+        }
+        for (k, below) in rest.chunks_exact_mut(stride).take(width).enumerate() {
+            // Beyond the last column there is nothing but zeros.
+            let below = &mut below[width - 1 - k..2 * width - k];
+            if below[0] != 0.0 {
+                below[0] /= pivot;
+                for j in 1..=width {
+                    below[j] -= below[0] * row[j];
+                }
+            }
+        }
+    }
+    Ok(())
 }

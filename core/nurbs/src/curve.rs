@@ -17,6 +17,12 @@ pub trait ParametricCurve<V: VectorSpace> {
         self.derivatives(t)[0]
     }
 
+    /// Point and first derivative at `t`.
+    fn first_derivatives(&self, t: f64) -> [V; 2] {
+        let [point, slope, _] = self.derivatives(t);
+        [point, slope]
+    }
+
     /// Third derivative at `t`. B-splines give it exactly; other curves a central difference of the second one, good
     /// to about 1e-8 of the size of their higher derivatives.
     fn third_derivative(&self, t: f64) -> V {
@@ -41,6 +47,9 @@ impl<V: VectorSpace, C: ParametricCurve<V> + ?Sized> ParametricCurve<V> for &C {
     }
     fn point(&self, t: f64) -> V {
         (**self).point(t)
+    }
+    fn first_derivatives(&self, t: f64) -> [V; 2] {
+        (**self).first_derivatives(t)
     }
     fn third_derivative(&self, t: f64) -> V {
         (**self).third_derivative(t)
@@ -191,6 +200,11 @@ impl<V: VectorSpace> ParametricCurve<V> for Curve<V> {
 
     fn point(&self, t: f64) -> V {
         self.table::<0>(t)[0]
+    }
+
+    fn first_derivatives(&self, t: f64) -> [V; 2] {
+        let [point, slope, _] = self.table::<1>(t);
+        [point, slope]
     }
 
     fn derivatives(&self, t: f64) -> [V; 3] {

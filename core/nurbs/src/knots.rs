@@ -1,6 +1,7 @@
 //! Knot vectors and B-spline basis functions.
 
 use crate::error::NurbsError;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Highest degree that evaluation supports; basis arrays of this size live on the stack.
 pub const MAX_DEGREE: usize = 15;
@@ -12,6 +13,23 @@ pub const MAX_DEGREE: usize = 15;
 pub struct Knots {
     degree: usize,
     values: Vec<f64>,
+    last: LastSpan,
+}
+
+/// The span found last, where the next search begins: mostly it ends there, too. No result depends on it.
+#[derive(Debug, Default)]
+struct LastSpan(AtomicUsize);
+
+impl Clone for LastSpan {
+    fn clone(&self) -> Self {
+        Self(AtomicUsize::new(self.0.load(Ordering::Relaxed)))
+    }
+}
+
+impl PartialEq for LastSpan {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Values and derivatives of the `degree + 1` basis functions that do not vanish on one span.
@@ -39,7 +57,7 @@ impl Knots {
         {
             return Err(NurbsError::KnotOrder { index: i, before: values[i - 1], value: values[i] });
         }
-        let knots = Self { degree, values };
+        let knots = Self { degree, values, last: LastSpan::default() };
         let (start, end) = knots.domain();
         if !(start < end) || !start.is_finite() {
             return Err(NurbsError::KnotOrder { index: degree, before: start, value: end });
@@ -96,6 +114,19 @@ impl Knots {
 
     /// Index `i` with `knots[i] <= t < knots[i + 1]`, the last non-empty span at the end; `t` outside is clamped.
     pub fn span(&self, t: f64) -> usize {
+        let (low, high) = (self.degree, self.control_count());
+        let k = &self.values[..=high];
+        let last = self.last.0.load(Ordering::Relaxed);
+        if (low..high).contains(&last) && k[last] <= t && t < k[last + 1] {
+            return last;
+        }
+        let found = self.searched_span(t);
+        self.last.0.store(found, Ordering::Relaxed);
+        found
+    }
+
+    /// [`Knots::span`] by bisection.
+    fn searched_span(&self, t: f64) -> usize {
         let (low, high) = (self.degree, self.control_count());
         let inner = &self.values[low + 1..high];
         let mut i = low + inner.partition_point(|&k| k <= t);
@@ -207,6 +238,9 @@ impl Knots {
         let p = if N <= MAX_DEGREE { N - 1 } else { degree };
         // The span is from `k[p]` to `k[p + 1]`.
         let k = &self.values[span - p..span + p + 1];
+        if N == 4 {
+            return cubic_basis(k, t).map(|row| std::array::from_fn(|i| row[i % 4]));
+        }
         let mut n = [0.0; N];
         // Functions of degree p - 1 and p - 2, and the inverse widths of the supports of the degrees they belong
         // to: derivatives are differences of them.
@@ -241,6 +275,34 @@ fn copy_basis<const N: usize>(values: &[[f64; N]; 3], order: usize, out: &mut Ba
     for (to, from) in out.values.iter_mut().zip(values).take(order + 1) {
         to[..N].copy_from_slice(from);
     }
+}
+
+/// [`Knots::basis_on`] for cubics, written out: half the work of the loops, and bit for bit their results.
+#[inline(always)]
+fn cubic_basis(k: &[f64], t: f64) -> [[f64; 4]; 3] {
+    let &[_, k1, k2, k3, k4, k5, k6] = k else { return [[0.0; 4]; 3] };
+    let (right1, right2, right3) = (k4 - t, k5 - t, k6 - t);
+    let (left1, left2, left3) = (t - k3, t - k2, t - k1);
+    // Degree 1, 2 and 3, each by way of its predecessor over the widths of the supports.
+    let inverse = 1.0 / (k4 - k3);
+    let a = [right1 * inverse, left1 * inverse];
+    let inverse2 = [1.0 / (k4 - k2), 1.0 / (k5 - k3)];
+    let term = [a[0] * inverse2[0], a[1] * inverse2[1]];
+    let b = [right1 * term[0], left2 * term[0] + right2 * term[1], left1 * term[1]];
+    let inverse3 = [1.0 / (k4 - k1), 1.0 / (k5 - k2), 1.0 / (k6 - k3)];
+    let term = [b[0] * inverse3[0], b[1] * inverse3[1], b[2] * inverse3[2]];
+    let n = [
+        right1 * term[0],
+        left3 * term[0] + right2 * term[1],
+        left2 * term[1] + right3 * term[2],
+        left1 * term[2],
+    ];
+    let rise = |lower: [f64; 3]| {
+        let [f, g, h] = [0, 1, 2].map(|i| 3.0 * lower[i] * inverse3[i]);
+        [0.0 - f, f - g, g - h, h]
+    };
+    let [f, g] = [0, 1].map(|i| 2.0 * a[i] * inverse2[i]);
+    [n, rise(b), rise([0.0 - f, f - g, g])]
 }
 
 /// Raises `lower` (functions of degree `p - 1`, or derivatives of them) to the derivative at degree `p`, given the

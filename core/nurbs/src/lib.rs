@@ -51,8 +51,8 @@ pub use knots::{Basis, Knots, MAX_DEGREE};
 pub use offset::{OffsetCurve, OffsetLaw, OffsetPiece, OffsetSpan, trimmed_offset};
 pub use query::{
     ArcLength, CERTIFIED, CurveHit, CurveProjection, CurveProjector, LineHit, Projection, SurfaceHit,
-    SurfaceProjector, curvature, line_meets_surface, march_to_curve, march_to_surface, project_on_curve,
-    project_on_surface, ray_meets_curve, ray_meets_surface, signed_curvature,
+    SurfaceProjector, curvature, line_meets, line_meets_surface, march_to_curve, march_to_surface,
+    project_on_curve, project_on_surface, ray_meets_curve, ray_meets_surface, signed_curvature,
 };
 pub use surface::{ParametricSurface, RationalSurface, Surface, SurfaceDerivatives};
 pub use vector::{Homogeneous, VectorSpace};

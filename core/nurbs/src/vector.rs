@@ -54,6 +54,7 @@ pub trait VectorSpace:
 
 impl VectorSpace for f64 {
     const DIMENSION: usize = 1;
+    #[inline]
     fn component(&self, _: usize) -> f64 {
         *self
     }
@@ -64,6 +65,7 @@ impl VectorSpace for f64 {
 
 impl VectorSpace for DVec2 {
     const DIMENSION: usize = 2;
+    #[inline]
     fn component(&self, i: usize) -> f64 {
         self[i]
     }
@@ -79,6 +81,7 @@ impl VectorSpace for DVec2 {
 
 impl VectorSpace for DVec3 {
     const DIMENSION: usize = 3;
+    #[inline]
     fn component(&self, i: usize) -> f64 {
         self[i]
     }
@@ -136,6 +139,7 @@ impl<V: VectorSpace> Mul<f64> for Homogeneous<V> {
 
 impl<V: VectorSpace> VectorSpace for Homogeneous<V> {
     const DIMENSION: usize = V::DIMENSION + 1;
+    #[inline]
     fn component(&self, i: usize) -> f64 {
         if i < V::DIMENSION { self.weighted.component(i) } else { self.weight }
     }

@@ -35,7 +35,8 @@ fn generate_writes_what_was_asked_for_and_a_report() {
         "--json",
     ]);
     assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
-    assert_eq!(files(&out), ["c3x.metal.mtl", "c3x.metal.obj", "c3x.metal.stl", "c3x.report.json"]);
+    let meshes = ["c3x.metal.mtl", "c3x.metal.obj", "c3x.metal.stl"];
+    assert_eq!(files(&out), [&["c3x.groups.json"], &meshes[..], &["c3x.report.json"]].concat());
     let report: Value = serde_json::from_slice(&done.stdout).unwrap();
     assert_eq!(report["watertight"], true);
     assert_eq!(report["genus"]["metal"]["found"], 10);

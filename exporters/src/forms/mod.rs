@@ -1,15 +1,16 @@
 //! Surfaces, curves and parameter curves in the forms that CAD readers have natively: planes, cylinders, cones, surfaces of
-//! revolution and B-splines. STEP and BREP write them, each in its own words.
+//! revolution and B-splines. STEP and BREP write them, each in its own words; IGES has B-splines alone.
 
 mod curve;
 mod pcurve;
+mod ruled;
 mod surface;
 
 use coolinggen_nurbs::Knots;
 
 pub(crate) use curve::{CurveForm, curve};
 pub(crate) use pcurve::pcurve;
-pub(crate) use surface::{Form, Placement, SurfaceForm, surface};
+pub(crate) use surface::{Form, Placement, SurfaceForm, rather_transposed, surface};
 
 /// Distinct knots and their multiplicities, compared exactly.
 pub(crate) fn distinct(knots: &Knots) -> (Vec<f64>, Vec<usize>) {

@@ -1,5 +1,6 @@
 //! The surface of a face in a form that CAD readers have natively.
 
+use super::ruled::drawn_out;
 use coolinggen_brep::{Face, Revolution, RevolutionKind, SurfaceGeometry};
 use coolinggen_nurbs::{Curve, ParametricCurve, RationalSurface, Surface};
 use glam::DVec3;
@@ -45,10 +46,14 @@ pub(crate) struct SurfaceForm<'a> {
 pub(crate) fn surface(face: &Face) -> SurfaceForm<'_> {
     let same = |form| SurfaceForm { form, same_normal: true };
     match &face.surface {
-        SurfaceGeometry::BSpline(s) if rather_transposed(s.counts()) => {
-            SurfaceForm { form: Form::BSpline(Cow::Owned(s.transposed())), same_normal: false }
+        SurfaceGeometry::BSpline(s) => {
+            let s = drawn_out(s).map_or(Cow::Borrowed(s), Cow::Owned);
+            if rather_transposed(s.counts()) {
+                SurfaceForm { form: Form::BSpline(Cow::Owned(s.transposed())), same_normal: false }
+            } else {
+                same(Form::BSpline(s))
+            }
         }
-        SurfaceGeometry::BSpline(s) => same(Form::BSpline(Cow::Borrowed(s))),
         SurfaceGeometry::Rational(s) => same(Form::Rational(s)),
         SurfaceGeometry::Plane(p) => {
             same(Form::Plane(Placement { origin: p.origin, axis: p.x.cross(p.y), reference: p.x }))
@@ -62,7 +67,7 @@ pub(crate) fn surface(face: &Face) -> SurfaceForm<'_> {
 /// OpenCASCADE's fixed rule for volumes (FreeCAD's `Shape.Volume`, build123d's `volume`) integrates across a face in u,
 /// with few points however many spans there are, and along its edges in v. Exchanged, and with the edges' parameter
 /// curves given, C3X and rotor are right to 4e-7; as they are, the vane's suction side alone is wrong by 3.1e-3.
-fn rather_transposed((u, v): (usize, usize)) -> bool {
+pub(crate) fn rather_transposed((u, v): (usize, usize)) -> bool {
     u > v
 }
 

@@ -3,8 +3,9 @@
 //! truck's own geometry is not used: its knot vectors merge knots closer than 1e-6, its numbers near zero are cut
 //! to 11 digits, and its surfaces of revolution carry the wrong sense (DESIGN.md section 6).
 
-use super::text::{List, Real, Ref, Text};
+use super::text::{List, Ref, Text};
 use crate::forms::{CurveForm, Form, Placement, SurfaceForm, distinct};
+use crate::number::Real;
 use coolinggen_nurbs::{Curve, Homogeneous, Knots};
 use glam::{DVec2, DVec3};
 use std::fmt::{Formatter, Result};

@@ -3,8 +3,10 @@
 use super::StepOptions;
 use super::geometry::PLACEMENT_LENGTH;
 use super::rewrite::Written;
-use super::text::{List, Real, Ref, Text};
+use super::text::{List, Ref, Text};
 use crate::forms::Placement;
+use crate::materials::display_value;
+use crate::number::Real;
 use coolinggen_brep::Style;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -125,12 +127,6 @@ fn colours<W: Write>(styles: &[&Style], written: &Written, e: &mut Entities<'_, 
     let items = List(items.iter().map(|&i| Ref(i)));
     e.add(format_args!("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',{items},#11)"))?;
     Ok(())
-}
-
-/// STEP's colours are display values (sRGB), which is how OpenCASCADE reads and writes them.
-fn display_value(linear: f64) -> f64 {
-    let c = linear.clamp(0.0, 1.0);
-    if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 }
 }
 
 fn layers<W: Write>(styles: &[&Style], written: &Written, e: &mut Entities<'_, W>) -> io::Result<()> {

@@ -4,6 +4,7 @@
 pub mod airfoil;
 pub mod blocks;
 pub mod closed;
+pub mod iges;
 pub mod mesh;
 pub mod perforated;
 pub mod stl;

@@ -1,12 +1,6 @@
-"""Blades that are in a document or in a STEP file already: their B-spline surfaces, and the space they
-stand in.
-
-Surfaces are taken as they are; hub and shroud are laid so that the blade reaches past both, to begin
-with.
-"""
+"""Blades that are in a document or in a STEP file already: their B-spline surfaces, taken as they are."""
 
 import itertools
-import math
 import tempfile
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -14,13 +8,10 @@ from pathlib import Path
 import FreeCAD as App
 import Part
 
+from .client import begin
+
 #: Points a border or a surface is looked at in each direction.
 SAMPLES = 40
-#: Hub and shroud keep so much of the blade's height from its ends, and go so much of its length past its
-#: edges.
-INSIDE, PAST = 0.02, 0.35
-#: A blade whose inner radius is less than this part of its outer one does not stand round the machine's axis.
-LEAST_RADIUS_RATIO = 0.15
 
 
 @dataclass(frozen=True)
@@ -73,7 +64,7 @@ def _resolved(item, names: list[str]):
 def of_shape(faces: list[Part.Face], placement: App.Placement, label: str) -> Chosen:
     """A design for a blade's faces, which are in their object's own coordinates."""
     found = of_faces(faces)
-    name = "".join(c if c.isascii() and c.isalnum() else "_" for c in label).strip("_") or "blade"
+    name = begin.plain(label)
     if len(found.faces) == 1 and _is_tube(found.faces[0].Surface):
         return Chosen(design(name, found), "", placement)
     folder = Path(tempfile.mkdtemp(prefix="coolinggen-"))
@@ -157,63 +148,5 @@ def _knots(values: list[float], times: list[int]) -> list[float]:
 def design(name: str, found: Found, *, file: str = "") -> dict:
     """A design with these surfaces and one chamber, as a start."""
     source = {"kind": "step", "file": Path(file).name} if file else inline(found.faces[0].Surface)
-    thickness = _shell(found)
-    return {
-        "format": "coolinggen/1",
-        "name": "".join(c if c.isascii() and c.isalnum() else "_" for c in name).strip("_") or "blade",
-        "space": space(found.points),
-        "blade": source,
-        "cooling": {
-            "shell": {"suction_side": thickness, "pressure_side": thickness, "tip": thickness},
-            "chambers": [{"name": "main", "fillet_radius": round(thickness / 2, 3)}],
-        },
-    }
-
-
-def _shell(found: Found) -> float:
-    """A shell that leaves room for a chamber: a fortieth of the blade's length along the flow, rounded."""
-    xs = [p.x for p in found.points]
-    ys = [p.y for p in found.points]
-    length = math.hypot(max(xs) - min(xs), max(ys) - min(ys))
-    return float(f"{max(length / 40, 0.05):.2g}")
-
-
-def space(points: list[App.Vector]) -> dict:
-    """Where a blade with these points stands: between two cones round the x axis that both lie within it,
-    or, if it is no blade of such a machine, between two planes across z.
-    """
-    radii = [math.hypot(p.y, p.z) for p in points]
-    if min(radii) < LEAST_RADIUS_RATIO * max(radii):
-        low, high = min(p.z for p in points), max(p.z for p in points)
-        inside = INSIDE * (high - low)
-        return {"kind": "linear", "z0": low + inside, "height": high - low - 2 * inside}
-    xr = [(p.x, r) for p, r in zip(points, radii, strict=True)]
-    begin, end = min(x for x, _ in xr), max(x for x, _ in xr)
-    past = PAST * (end - begin)
-    hub, shroud = _bound(xr, lower=True), _bound(xr, lower=False)
-    ends = (begin - past, end + past)
-    inside = INSIDE * (max(radii) - min(radii))
-    return {
-        "kind": "annular",
-        "hub": [[x, hub[0] * x + hub[1] + inside] for x in ends],
-        "shroud": [[x, shroud[0] * x + shroud[1] - inside] for x in ends],
-    }
-
-
-def _bound(xr: list[tuple[float, float]], *, lower: bool) -> tuple[float, float]:
-    """Slope and height of the line over x that leaves the whole end of a blade on its outer side: the
-    tightest bound of the ends' radii in slices of x.
-    """
-    begin, end = min(x for x, _ in xr), max(x for x, _ in xr)
-    width = (end - begin) / 12 or 1.0
-    pick = min if lower else max
-    slices: dict[int, list[tuple[float, float]]] = {}
-    for x, r in xr:
-        slices.setdefault(min(int((x - begin) / width), 11), []).append((x, r))
-    ends = [pick(part, key=lambda p: p[1]) for part in slices.values() if len(part) > 2]
-    n = len(ends)
-    mean_x, mean_r = sum(x for x, _ in ends) / n, sum(r for _, r in ends) / n
-    spread = sum((x - mean_x) ** 2 for x, _ in ends) or 1.0
-    slope = sum((x - mean_x) * (r - mean_r) for x, r in ends) / spread
-    off = [r - slope * x for x, r in ends]
-    return slope, max(off) if lower else min(off)
+    points = [tuple(p) for p in found.points]
+    return begin.design(name, points, begin.space(points), source)

@@ -8,11 +8,9 @@ from PySide import QtCore, QtGui
 
 from . import blade, job, waiting
 from .client.mesh import Mesh
+from .client.thickness import SCALE, color, span
 from .preview import mesh_node
 
-#: Colours from the thinnest to the thickest wall.
-SCALE = ((0.84, 0.19, 0.15), (0.99, 0.68, 0.38), (1.0, 1.0, 0.75), (0.65, 0.85, 0.42), (0.17, 0.51, 0.73))
-NONE = (0.6, 0.6, 0.6)  #: Where there is no wall to the outside.
 TRANSPARENCY = 75  #: Of the metal, percent.
 
 _shown: dict[str, "Shown"] = {}
@@ -22,7 +20,7 @@ class Shown:
     """A blade's wall thickness in its document's view; ``clear`` takes it away."""
 
     def __init__(self, obj, meshes: list[Mesh]):
-        self.range = span(meshes)
+        self.range = span(sorted(w for mesh in meshes for w in mesh.wall_thickness if math.isfinite(w)))
         self._root = Gui.getDocument(obj.Document.Name).ActiveView.getSceneGraph()
         self._node = coin.SoSeparator()
         self._node.setName("CoolingGenThickness")
@@ -59,23 +57,6 @@ def toggle(obj) -> Shown | None:
     meshes = waiting.run("Wall thickness", lambda watch: job.wall_thickness(wanted, watch))
     _shown[key] = Shown(obj, meshes)
     return _shown[key]
-
-
-def span(meshes: list[Mesh]) -> tuple[float, float]:
-    """Least and greatest thickness of the colours: a twentieth of the vertices may be above the scale."""
-    values = sorted(value for mesh in meshes for value in mesh.wall_thickness if math.isfinite(value))
-    if not values:
-        raise ValueError("the blade has no passages")
-    return values[0], max(values[int(0.95 * (len(values) - 1))], values[0] + 1e-6)
-
-
-def color(value: float, low: float, high: float) -> tuple[float, float, float]:
-    """The colour of a thickness on the scale from ``low`` to ``high``."""
-    if not math.isfinite(value):
-        return NONE
-    place = min(max((value - low) / (high - low), 0.0), 1.0) * (len(SCALE) - 1)
-    k = min(int(place), len(SCALE) - 2)
-    return tuple(a + (b - a) * (place - k) for a, b in zip(SCALE[k], SCALE[k + 1], strict=True))
 
 
 def scale(low: float, high: float) -> QtGui.QDockWidget:

@@ -2,7 +2,7 @@
 
 use crate::draw::Draw;
 use crate::drawing::{Drawing, Section};
-use crate::interior::Interior;
+use crate::interior::{Interior, Wall};
 use serde_json::{Value, json};
 
 const SIDES: [&str; 2] = ["suction_side", "pressure_side"];
@@ -33,8 +33,8 @@ pub(crate) fn add(draw: &mut Draw, drawing: &Drawing, interior: &Interior, cooli
     }
 }
 
-/// The exit of a hole: its document, and its width across the axis.
-fn shape(draw: &mut Draw, d: f64, alpha: f64, length: f64) -> (Value, f64) {
+/// The exit of a hole: its document, and its width across the axis. Its lengths lie between `least` and `length` mm.
+fn shape(draw: &mut Draw, d: f64, alpha: f64, [least, length]: [f64; 2]) -> (Value, f64) {
     let round = (json!({ "kind": "cylindrical" }), d);
     match draw.below(6) {
         0 | 1 => round,
@@ -50,7 +50,7 @@ fn shape(draw: &mut Draw, d: f64, alpha: f64, length: f64) -> (Value, f64) {
         _ => {
             // The metering part is round at the inner breakout, the widened one where its upstream edge breaks out.
             let slant = 0.5 / alpha.to_radians().tan();
-            let room = length / d - 2.0 * slant;
+            let room = least / d - 2.0 * slant;
             if room < 0.8 {
                 return round;
             }
@@ -65,20 +65,33 @@ fn shape(draw: &mut Draw, d: f64, alpha: f64, length: f64) -> (Value, f64) {
     }
 }
 
-/// Camber fractions that chamber `k` takes up at the inner side of a shell, in the tightest section.
-fn extent(drawing: &Drawing, interior: &Interior, k: usize, side: usize) -> [f64; 2] {
-    let edge = |wall: &[f64; 3], sign: f64| {
-        let worst = |s: &Section| {
-            let angle = wall[1].to_radians();
-            let leaned = (s.radius(wall[0]) - interior.shell[side]).max(0.0) / angle.tan();
-            let leaned = if side == 0 { leaned } else { -leaned };
-            let off = 0.5 * wall[2] / angle.sin() + interior.fillet;
-            wall[0] + (leaned + sign * off) / s.length
-        };
-        if sign > 0.0 { drawing.greatest(worst) } else { drawing.least(worst) }
+/// Camber fractions whose points on a side have chamber `k` behind them, in the tightest section: behind a point `ahead` mm
+/// upstream of it, and half a foot to both sides.
+fn extent(
+    drawing: &Drawing,
+    interior: &Interior,
+    (k, side): (usize, usize),
+    ahead: f64,
+    half: f64,
+) -> [f64; 2] {
+    let shell = interior.shell[side];
+    // The normals of a side do not stand on the camber line: a circle that grows touches ahead of its centre.
+    let place = |s: &Section, at: f64| {
+        let at = at + ahead / s.length;
+        at + (s.radius(at) - shell).max(0.0) * s.growth(at) / s.length
     };
-    let front = if k == 0 { interior.ends[0] } else { edge(&interior.walls[k - 1], 1.0) };
-    let back = if k == interior.walls.len() { interior.ends[1] } else { edge(&interior.walls[k], -1.0) };
+    let edge = |wall: &Wall, sign: f64, s: &Section| {
+        let off = wall.half_across(s) + interior.fillet + half;
+        wall.place_at(s) + (wall.leaned(s, side, shell) + sign * off) / s.length
+    };
+    let front = drawing.greatest(|s| match k {
+        0 => place(s, interior.ends[0] + half / s.length),
+        _ => place(s, edge(&interior.walls[k - 1], 1.0, s)),
+    });
+    let back = drawing.least(|s| match interior.walls.get(k) {
+        None => place(s, interior.ends[1] - half / s.length),
+        Some(wall) => place(s, edge(wall, -1.0, s)),
+    });
     [front, back]
 }
 
@@ -96,17 +109,14 @@ fn row(
     let beta = *draw.of(&[0.0, 0.0, 30.0, 45.0, 60.0, -45.0, 90.0]);
     let shell = interior.shell[side];
     let length = shell / alpha.to_radians().sin();
-    let (shape, width) = shape(draw, d, alpha, length);
+    let least = interior.thin_shell[side] / alpha.to_radians().sin();
+    let (shape, width) = shape(draw, d, alpha, [least, length]);
     let (along, across) = (length * alpha.to_radians().cos(), f64::to_radians(beta));
     let (shift, rise) = (along * across.cos(), (along * across.sin()).abs());
     // Half of the foot on the chamber's side, along the stream surface.
     let reach = 0.5 * d.max(if beta.abs() > 20.0 { width } else { d }) / alpha.to_radians().sin() + 0.3;
-    let length_least = drawing.least(|s| s.length);
-    let [front, back] = extent(drawing, interior, k, side);
-    let (low, high) = (front + (reach + shift) / length_least, back + (shift - reach) / length_least);
     // The sides are a little longer or shorter than the camber line: a tenth of the shift stays free.
-    let margin = 0.1 * shift.abs() / length_least;
-    let (low, high) = (low + margin, high - margin);
+    let [low, high] = extent(drawing, interior, (k, side), shift, reach + 0.1 * shift.abs());
     // The breakout must stay clear of the trailing edge.
     if low > high || high > 0.95 {
         return None;
@@ -183,8 +193,10 @@ fn showerhead(draw: &mut Draw, drawing: &Drawing, interior: &Interior) -> Vec<Va
 /// A row of slots; none where the trailing edge is too thin for them.
 fn slots(draw: &mut Draw, drawing: &Drawing, interior: &Interior) -> Option<Value> {
     let (_, straight) = interior.chambers.last()?;
-    // Lips of 0.2 mm at least on both sides.
-    let most = (drawing.least(|s| s.trailing_thickness) - 0.4).min(1.2 * interior.fillet);
+    // Lips of 0.2 mm at least on both sides, all along the slot's axis: one that begins far ahead in a bent section would
+    // come out of a side.
+    let beside = drawing.least(|s| s.beside_slot(interior.shell, interior.fillet).unwrap_or(0.0));
+    let most = (2.0 * beside - 0.4).min(1.2 * interior.fillet);
     if most < 0.3 {
         return None;
     }

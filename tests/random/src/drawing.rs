@@ -22,14 +22,18 @@ pub struct Drawing {
 
 /// A section on paper.
 pub struct Section {
+    /// Span fraction.
+    pub v: f64,
     /// Circles from front to back.
     circles: Vec<Circle>,
     /// Length of the camber line, mm.
     pub length: f64,
+    /// Length in space of one unit of the chart.
+    scale: f64,
+    /// +1 where the suction side lies to the left of the camber line, -1 to its right.
+    suction_left: f64,
     /// Millimetres from the foremost point to the end of the leading edge's region: suction side, pressure side.
     pub nose: [f64; 2],
-    /// Thickness at the end of the trailing edge's region, mm.
-    pub trailing_thickness: f64,
 }
 
 #[derive(Clone, Copy)]
@@ -38,6 +42,10 @@ struct Circle {
     at: f64,
     radius: f64,
     centre: DVec3,
+    /// Unit direction from the centre to the suction side.
+    suction: DVec3,
+    /// The centre in the chart.
+    chart: DVec2,
 }
 
 impl Drawing {
@@ -65,7 +73,7 @@ impl Drawing {
             let middle = side_a[POINTS / 2];
             let scale = surface.scale(middle);
             ends.push([nose[0], middle, side_a[POINTS]].map(|q| surface.to_space(q)).to_vec());
-            sections.push(Section::new(&side_a, &side_b, &nose, scale, |q| surface.to_space(q))?);
+            sections.push(Section::new(v, [&side_a, &side_b, &nose], scale, |q| surface.to_space(q))?);
         }
         let height = |k: usize| ends.windows(2).map(|pair| pair[0][k].distance(pair[1][k])).sum::<f64>();
         Some(Self { sections, height: height(0).min(height(1)).min(height(2)) })
@@ -105,15 +113,14 @@ impl Section {
     /// From points of the suction side (front to back), of the pressure side (back to front) and of the nose (pressure
     /// side to suction side) in a chart, and the length in space of one unit there.
     fn new(
-        side_a: &[DVec2],
-        side_b: &[DVec2],
-        nose: &[DVec2],
+        v: f64,
+        [side_a, side_b, nose]: [&[DVec2]; 3],
         scale: f64,
         space: impl Fn(DVec2) -> DVec3,
     ) -> Option<Self> {
         let inwards = (side_b[side_b.len() / 2] - side_a[side_a.len() / 2]).normalize();
         let others: Vec<DVec2> = side_b.iter().chain(nose).copied().collect();
-        let mut centres: Vec<(DVec2, f64)> = Vec::new();
+        let mut centres: Vec<(DVec2, f64, DVec2)> = Vec::new();
         for i in 1..side_a.len() - 1 {
             let normal = (side_a[i + 1] - side_a[i - 1]).perp().normalize();
             let middle = (side_a[side_a.len() / 2 + 1] - side_a[side_a.len() / 2 - 1]).perp();
@@ -125,7 +132,7 @@ impl Section {
                     (along > 1e-9).then(|| d.length_squared() / (2.0 * along))
                 })
                 .fold(f64::INFINITY, f64::min);
-            centres.push((side_a[i] + normal * radius, radius));
+            centres.push((side_a[i] + normal * radius, radius, side_a[i]));
         }
         let mut lengths = vec![0.0];
         for pair in centres.windows(2) {
@@ -134,19 +141,46 @@ impl Section {
         let (front, back) = (centres.first()?.1, centres.last()?.1);
         let length = front + lengths.last()? + back;
         let circles = (centres.iter().zip(&lengths))
-            .map(|(c, l)| Circle { at: (front + l) / length, radius: c.1 * scale, centre: space(c.0) })
+            .map(|(c, l)| {
+                let centre = space(c.0);
+                let suction = (space(c.2) - centre).normalize();
+                Circle { at: (front + l) / length, radius: c.1 * scale, centre, suction, chart: c.0 }
+            })
             .collect();
+        let (first, last) = (centres[0], centres[centres.len() - 1]);
+        let suction_left = (last.0 - first.0).perp_dot(first.2 - first.0).signum();
         // The foremost point: farthest from the trailing edge.
         let tail = *side_a.last()?;
         let far =
             (0..nose.len()).max_by(|&i, &j| nose[i].distance(tail).total_cmp(&nose[j].distance(tail)))?;
         let along = |points: &[DVec2]| points.windows(2).map(|p| p[0].distance(p[1])).sum::<f64>() * scale;
         Some(Self {
+            v,
             circles,
             length: length * scale,
+            scale,
+            suction_left,
             nose: [along(&nose[far..]), along(&nose[..=far])],
-            trailing_thickness: 2.0 * back * scale,
         })
+    }
+
+    /// How far the circle about a camber fraction touches both sides ahead of its centre, per mm of distance from the camber
+    /// line: as much as the circles grow.
+    pub fn growth(&self, at: f64) -> f64 {
+        const APART: f64 = 0.02;
+        (self.radius(at + APART) - self.radius(at - APART)) / (2.0 * APART * self.length)
+    }
+
+    /// Where a line through the camber line's point at a fraction, at an angle to it, comes `room` mm away from it towards a
+    /// side (0: suction side); in mm of the chart.
+    pub fn across(&self, at: f64, angle: f64, room: f64, side: usize) -> DVec2 {
+        let k = self.circles.partition_point(|c| c.at < at).clamp(3, self.circles.len() - 4);
+        let (before, behind) = (self.circles[k - 3].chart, self.circles[k + 3].chart);
+        let (a, b) = (self.circles[k - 1], self.circles[k]);
+        let centre = a.chart.lerp(b.chart, (at - a.at) / (b.at - a.at));
+        let direction = DVec2::from_angle(angle * self.suction_left).rotate((behind - before).normalize());
+        let reach = room / angle.sin() * if side == 0 { 1.0 } else { -1.0 };
+        centre * self.scale + direction * reach
     }
 
     /// The circle nearest behind a camber fraction.
@@ -159,6 +193,21 @@ impl Section {
         let behind = self.circles.partition_point(|c| c.at < at).clamp(1, self.circles.len() - 1);
         let (a, b) = (self.circles[behind - 1], self.circles[behind]);
         a.radius + (b.radius - a.radius) * ((at - a.at) / (b.at - a.at)).clamp(0.0, 1.0)
+    }
+
+    /// Least distance to a side, mm, from the axis of a slot: the straight line from the end of the trailing chamber, an arc
+    /// of radius `fillet` between shells of the thickness `shell` (suction side, pressure side), to the trailing edge. Negative
+    /// where a bent section leaves the line; none where the section has no such end.
+    pub fn beside_slot(&self, shell: [f64; 2], fillet: f64) -> Option<f64> {
+        let fits = |c: &Circle| 2.0 * c.radius >= shell[0] + shell[1] + 2.0 * fillet;
+        let end = self.circles.iter().rposition(fits)?;
+        let (last, edge) = (self.circles[end], self.circles.last()?.centre);
+        // Between unequal shells the arc stands nearer to the thinner one.
+        let tail = last.centre + last.suction * (0.5 * (shell[1] - shell[0]));
+        // An arc about the centre of a round trailing edge keeps the shell's thickness all round.
+        let Some(axis) = (edge - tail).try_normalize() else { return Some(last.radius) };
+        let beside = |c: &Circle| c.radius - (c.centre - tail).reject_from(axis).length();
+        self.circles[end..].iter().map(beside).min_by(f64::total_cmp)
     }
 
     /// Greatest radius of an inscribed circle, mm.

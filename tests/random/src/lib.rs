@@ -8,6 +8,7 @@
 mod blades;
 mod bores;
 mod check;
+mod confirm;
 #[path = "../../../core/cooling/tests/mutations/draw.rs"]
 mod draw;
 mod drawing;
@@ -16,6 +17,7 @@ mod interior;
 mod sound;
 
 pub use check::{Outcome, outcome};
+pub use confirm::{Confirmation, confirm};
 pub use drawing::Drawing;
 
 use draw::Draw;

@@ -8,7 +8,7 @@
 //! and `randomNNNN.faults.json` if not; `tests/random/occ.py DIR` then asks OpenCASCADE about them.
 
 use coolinggen_exporters::{StepOptions, write_step};
-use coolinggen_random::{Outcome, design, outcome};
+use coolinggen_random::{Confirmation, Outcome, confirm, design, outcome};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -38,11 +38,28 @@ fn options() -> Result<Options, String> {
     Ok(options)
 }
 
-/// What is printed of a design: its kind, and a line.
-fn run(seed: u64, options: &Options) -> io::Result<(String, String)> {
+/// What a design came to: its kind, a line to print, and what the check says of a refusal.
+struct Run {
+    kind: String,
+    line: String,
+    confirmation: Option<Confirmation>,
+}
+
+/// Draws, builds and checks the design of a seed, and writes it if files are asked for.
+fn run(seed: u64, options: &Options) -> io::Result<Run> {
     let started = Instant::now();
     let document = design(seed);
     let outcome = outcome(&document);
+    let confirmation = match &outcome {
+        Outcome::Refused(faults) => Some(confirm(&document, &faults[0])),
+        Outcome::Built(_) | Outcome::Wrong(_) => None,
+    };
+    let confirmed = match &confirmation {
+        Some(Confirmation::Confirmed(what)) => format!("\n            confirmed: {what}"),
+        Some(Confirmation::Contradicted(what)) => format!("\n            NOT CONFIRMED: {what}"),
+        Some(Confirmation::Unchecked) => "\n            NOT CONFIRMED: no check".into(),
+        None => String::new(),
+    };
     let (kind, what, record) = match &outcome {
         Outcome::Built(generated) => {
             let genus: BTreeMap<_, _> = generated.report.genus.iter().map(|(n, g)| (n, g.expected)).collect();
@@ -61,15 +78,30 @@ fn run(seed: u64, options: &Options) -> io::Result<(String, String)> {
         let path = |extension: &str| out.join(format!("random{seed:04}.{extension}"));
         let text = |value: &Value| format!("{value:#}\n");
         std::fs::write(path("json"), text(&document))?;
-        let kind = if matches!(outcome, Outcome::Built(_)) { "expected.json" } else { "faults.json" };
+        let (kind, others) = match outcome {
+            Outcome::Built(_) => ("expected.json", &["faults.json"][..]),
+            Outcome::Refused(_) | Outcome::Wrong(_) => {
+                ("faults.json", &["expected.json", "step", "occ.json"][..])
+            }
+        };
+        // What an earlier run has left of another outcome would be read as this one's.
+        for other in others.iter().map(|other| path(other)) {
+            if other.exists() {
+                std::fs::remove_file(other)?;
+            }
+        }
         std::fs::write(path(kind), text(&record))?;
         if let Outcome::Built(generated) = &outcome {
-            let mut file = io::BufWriter::new(std::fs::File::create(path("step"))?);
+            // Whole or not at all: OpenCASCADE may be reading while this runs.
+            let mut file = io::BufWriter::new(std::fs::File::create(path("step.part"))?);
             write_step(&generated.blade.model, &[], &StepOptions::default(), &mut file)
                 .map_err(io::Error::other)?;
+            file.into_inner().map_err(io::IntoInnerError::into_error)?;
+            std::fs::rename(path("step.part"), path("step"))?;
         }
     }
-    Ok((kind, format!("{seed:4} {:7.0} ms {what}", started.elapsed().as_secs_f64() * 1e3)))
+    let line = format!("{seed:4} {:7.0} ms {what}{confirmed}", started.elapsed().as_secs_f64() * 1e3);
+    Ok(Run { kind, line, confirmation })
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -78,16 +110,25 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         std::fs::create_dir_all(out)?;
     }
     let seeds: Vec<u64> = (options.first..options.first + options.count).collect();
-    let results: Vec<_> = seeds.into_par_iter().map(|seed| run(seed, &options)).collect::<io::Result<_>>()?;
-    let mut kinds: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for (kind, line) in &results {
-        kinds.entry(kind).or_default().push(line);
+    let results: Vec<Run> =
+        seeds.into_par_iter().map(|seed| run(seed, &options)).collect::<io::Result<_>>()?;
+    let mut kinds: BTreeMap<&str, Vec<&Run>> = BTreeMap::new();
+    for result in &results {
+        kinds.entry(&result.kind).or_default().push(result);
     }
-    for (kind, lines) in kinds.iter().filter(|(kind, _)| **kind != "built") {
+    for (kind, results) in kinds.iter().filter(|(kind, _)| **kind != "built") {
         println!("{kind}");
-        lines.iter().for_each(|line| println!("    {line}"));
+        results.iter().for_each(|result| println!("    {}", result.line));
     }
-    println!("\n{:>6}  outcome", "designs");
-    kinds.iter().for_each(|(kind, lines)| println!("{:>6}  {kind}", lines.len()));
+    println!("\n{:>6}  {:>9}  outcome", "designs", "confirmed");
+    for (kind, results) in kinds {
+        let refused = results.iter().filter_map(|r| r.confirmation.as_ref());
+        let confirmed = refused.filter(|c| matches!(c, Confirmation::Confirmed(_))).count();
+        let confirmed = if kind == "built" { String::new() } else { confirmed.to_string() };
+        println!("{:>6}  {confirmed:>9}  {kind}", results.len());
+    }
+    if results.iter().any(|result| result.kind == "wrong") {
+        return Err("designs were built wrong".into());
+    }
     Ok(())
 }

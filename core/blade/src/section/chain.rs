@@ -184,7 +184,7 @@ fn arc_lengths(curve: &Curve<DVec2>, parameters: &[f64]) -> Vec<f64> {
     let mut lengths = vec![0.0];
     for w in parameters.windows(2) {
         let (middle, half) = (0.5 * (w[0] + w[1]), 0.5 * (w[1] - w[0]));
-        let speed = |t: f64| curve.derivatives(t)[1].length();
+        let speed = |t: f64| curve.first_derivatives(t)[1].length();
         let mut sum = WEIGHTS[0] * speed(middle);
         for k in 1..3 {
             sum += WEIGHTS[k] * (speed(middle - half * NODES[k]) + speed(middle + half * NODES[k]));

@@ -81,7 +81,7 @@ impl Meridian {
         match &self.form {
             Form::Straight { start, direction, length } => (*start + *direction * s, *direction / *length),
             Form::Curved { .. } => {
-                let [p, d, _] = self.curve.derivatives(s);
+                let [p, d] = self.curve.first_derivatives(s);
                 (p, d.normalize())
             }
         }
@@ -168,9 +168,15 @@ impl Meridian {
     /// Parameter of the closest point to `p`, up to [`BEYOND`] outside the ends; sought from `hint` on, or from the
     /// closest of a row of samples.
     pub(super) fn nearest(&self, p: DVec2, hint: Option<f64>) -> f64 {
+        self.foot(p, hint).0
+    }
+
+    /// As [`Meridian::nearest`]: the parameter, the closest point and the unit tangent there.
+    pub(super) fn foot(&self, p: DVec2, hint: Option<f64>) -> (f64, DVec2, DVec2) {
         match &self.form {
-            Form::Straight { start, direction, .. } => {
-                (p - *start).dot(*direction) / direction.length_squared()
+            Form::Straight { start, direction, length } => {
+                let s = (p - *start).dot(*direction) / direction.length_squared();
+                (s, *start + *direction * s, *direction / *length)
             }
             Form::Curved { samples, .. } => {
                 let mut s = hint.unwrap_or_else(|| {
@@ -183,6 +189,7 @@ impl Meridian {
                     }
                     best.1
                 });
+                let (mut foot, mut slope) = (DVec2::ZERO, DVec2::ZERO);
                 for _ in 0..40 {
                     let [c, d, dd] = self.curve.derivatives(s);
                     let (gap, speed) = (c - p, d.length_squared());
@@ -190,15 +197,22 @@ impl Meridian {
                     // Beyond the centre of curvature the distance has no minimum near: step as on a line.
                     let newton = bend > 0.25 * speed;
                     let step = gap.dot(d) / if newton { bend } else { speed };
+                    // Halley's correction, but for the third derivative: near the curve that hardly matters.
+                    let uneven = 1.5 * step * d.dot(dd) / bend;
+                    let step = if newton && uneven.abs() < 0.25 { step / (1.0 - uneven) } else { step };
                     let next = (s - step.clamp(-BEYOND, BEYOND)).clamp(-BEYOND, 1.0 + BEYOND);
-                    let moved = (next - s).abs();
+                    let moved = next - s;
                     s = next;
-                    // Convergence is quadratic: the next step would be the square of this one.
-                    if moved <= if newton { 1e-9 } else { 1e-15 } {
+                    // So short a step is a Taylor series to the last digit.
+                    foot = c + (d + dd * (0.5 * moved)) * moved;
+                    slope = d + dd * moved;
+                    // Convergence is quadratic: the next step would be the square of this one; near the curve it is cubic.
+                    let near = gap.length_squared() <= 1e-6 * speed;
+                    if moved.abs() <= if newton { if near { 1e-6 } else { 1e-9 } } else { 1e-15 } {
                         break;
                     }
                 }
-                s
+                (s, foot, slope.normalize())
             }
         }
     }

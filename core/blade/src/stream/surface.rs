@@ -123,9 +123,8 @@ impl StreamSurface {
             Form::Plane { z } => (p.z - z, DVec3::Z),
             Form::Revolved { meridian, side, .. } => {
                 let q = meridional(p);
-                let s = meridian.nearest(q, *station);
+                let (s, foot, tangent) = meridian.foot(q, *station);
                 *station = Some(s);
-                let (foot, tangent) = meridian.tangent(s);
                 let normal = tangent.perp() * *side;
                 let radial = if q.y > 0.0 { normal.y / q.y } else { 0.0 };
                 ((q - foot).dot(normal), DVec3::new(normal.x, radial * p.y, radial * p.z))

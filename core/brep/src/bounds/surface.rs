@@ -18,13 +18,14 @@ pub(super) fn include(face: &Face, bounds: &mut Bounds) {
         SurfaceGeometry::Plane(_) => {}
         SurfaceGeometry::Revolution(s) => revolution(s, &inside, bounds),
         SurfaceGeometry::BSpline(s) => {
-            let net = Net { knots: [s.knots_u(), s.knots_v()], points: |i: usize| s.points()[i] };
+            let net =
+                Net { knots: [s.knots_u(), s.knots_v()], points: |i: usize| s.points()[i], rational: false };
             net.include(&inside, bounds);
         }
         SurfaceGeometry::Rational(s) => {
             let h = s.homogeneous();
             let points = |i: usize| Homogeneous::project(&h.points()[i]);
-            Net { knots: [h.knots_u(), h.knots_v()], points }.include(&inside, bounds);
+            Net { knots: [h.knots_u(), h.knots_v()], points, rational: true }.include(&inside, bounds);
         }
     }
 }
@@ -85,6 +86,7 @@ fn revolution(surface: &Revolution, inside: &Inside<'_>, bounds: &mut Bounds) {
 struct Net<'a, P> {
     knots: [&'a Knots; 2],
     points: P,
+    rational: bool,
 }
 
 impl<P: Fn(usize) -> DVec3> Net<'_, P> {
@@ -92,25 +94,52 @@ impl<P: Fn(usize) -> DVec3> Net<'_, P> {
         let (nu, nv) = (self.knots[0].control_count(), self.knots[1].control_count());
         let sticks_out = |bounds: &Bounds, p: DVec3| !bounds.contains(p, BOUNDS_TOLERANCE_MM);
         // Mostly the whole net is inside already.
-        if !(0..nu * nv).any(|i| sticks_out(bounds, (self.points)(i))) {
+        let out: Vec<bool> = (0..nu * nv).map(|i| sticks_out(bounds, (self.points)(i))).collect();
+        if !out.contains(&true) {
             return;
         }
         let [p, q] = self.knots.map(Knots::degree);
+        let mut cells = Vec::new();
         for i in full_spans(self.knots[0]) {
             let rows = i - p..=i;
             for j in full_spans(self.knots[1]) {
-                let hull = rows.clone().flat_map(|a| (j - q..=j).map(move |b| a * nv + b));
-                let hull = hull.map(&self.points);
+                let hull = || rows.clone().flat_map(|a| (j - q..=j).map(move |b| a * nv + b));
+                if !hull().any(|k| out[k]) {
+                    continue;
+                }
+                let hull = hull().map(&self.points);
                 let hull = hull.fold(Bounds::EMPTY, |b, p| b.union(Bounds { min: p, max: p }));
-                for axis in 0..3 {
-                    for sign in [1.0, -1.0] {
-                        if hull.reach(axis, sign) > bounds.reach(axis, sign) + BOUNDS_TOLERANCE_MM {
-                            self.cell([i, j], axis, sign, inside, bounds);
-                        }
+                for (axis, sign) in (0..3).flat_map(|axis| [(axis, 1.0), (axis, -1.0)]) {
+                    let beyond = hull.reach(axis, sign) - bounds.reach(axis, sign);
+                    if beyond > BOUNDS_TOLERANCE_MM {
+                        cells.push((beyond, hull.reach(axis, sign), [i, j], axis, sign));
                     }
                 }
             }
         }
+        // Those that may reach farthest first: what they add mostly spares the others.
+        cells.sort_by(|a, b| b.0.total_cmp(&a.0));
+        for (_, reach, spans, axis, sign) in cells {
+            if reach > bounds.reach(axis, sign) + BOUNDS_TOLERANCE_MM && self.may_peak(spans, axis) {
+                self.cell(spans, axis, sign, inside, bounds);
+            }
+        }
+    }
+
+    /// Whether a coordinate can have an extreme in one cell: not where it grows, or falls, from each control point to the
+    /// next in one direction, for these differences make its derivative.
+    fn may_peak(&self, [i, j]: [usize; 2], axis: usize) -> bool {
+        if self.rational {
+            return true;
+        }
+        let [p, q] = self.knots.map(Knots::degree);
+        let nv = self.knots[1].control_count();
+        let value = |a: usize, b: usize| (self.points)(a * nv + b)[axis];
+        let (rows, columns) = (i - p..=i, j - q..=j);
+        let up = rows.clone().skip(1).flat_map(|a| columns.clone().map(move |b| (a, b)));
+        let across = rows.clone().flat_map(|a| columns.clone().skip(1).map(move |b| (a, b)));
+        turns(up.map(|(a, b)| value(a, b) - value(a - 1, b)))
+            && turns(across.map(|(a, b)| value(a, b) - value(a, b - 1)))
     }
 
     /// Looks for an extreme of the coordinate in one cell of the knots.
@@ -122,8 +151,8 @@ impl<P: Fn(usize) -> DVec3> Net<'_, P> {
         const STEPS: usize = 4;
         let samples = (0..=STEPS).flat_map(|a| (0..=STEPS).map(move |b| DVec2::new(a as f64, b as f64)));
         let samples = samples.map(|s| low + size * s / STEPS as f64);
-        let value = |at: &DVec2| sign * surface.point(at.x, at.y)[axis];
-        let Some(best) = samples.max_by(|a, b| value(a).total_cmp(&value(b))) else { return };
+        let valued = samples.map(|at| (sign * surface.point(at.x, at.y)[axis], at));
+        let Some((_, best)) = valued.max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
         let Some(summit) = climb(surface, axis, sign, best, size) else { return };
         // A little more than the cell: on a knot line either side will do.
         let within = ((summit - low) / size).cmpge(DVec2::splat(-0.01)).all()
@@ -133,6 +162,16 @@ impl<P: Fn(usize) -> DVec3> Net<'_, P> {
             bounds.include(point);
         }
     }
+}
+
+/// Whether neither all differences are positive nor all negative.
+fn turns(differences: impl Iterator<Item = f64>) -> bool {
+    let (mut rises, mut falls) = (true, true);
+    for difference in differences {
+        rises &= difference > 0.0;
+        falls &= difference < 0.0;
+    }
+    !rises && !falls
 }
 
 /// Newton's method for the place where the coordinate times `sign` is greatest; steps no longer than half a cell.

@@ -6,6 +6,7 @@ use crate::geometry::{EdgeCurve, SurfaceGeometry};
 use crate::lanes::Lanes;
 use crate::model::{Coedge, Edge, FaceId};
 use crate::probe::SurfaceProbe;
+use crate::span::full_spans;
 use coolinggen_nurbs::{Curve, Knots, ParametricCurve};
 use glam::{DVec2, DVec3};
 
@@ -15,6 +16,21 @@ const FRACTIONS: [f64; 4] = [0.12, 0.33, 0.5, 0.79];
 
 /// Less than this, mm, need not be told from nothing: rounding at 10 m.
 const NEGLIGIBLE: f64 = 1e-11;
+
+/// The greatest distance, mm, at the same parameters between `curve` and the image on `surface` of `pcurve`, which has
+/// the same knots, as measured in the middle of each span: there interpolants err most.
+pub fn deviation_amid_spans(surface: &SurfaceGeometry, curve: &Curve<DVec3>, pcurve: &Curve<DVec2>) -> f64 {
+    let mut probe = SurfaceProbe::new(surface);
+    let mut cursor = Cursor::new(curve);
+    let mut worst = 0.0f64;
+    for index in full_spans(curve.knots()) {
+        cursor.enter(index);
+        let t = 0.5 * (cursor.span.start + cursor.span.end);
+        let at = cursor.span.point(t, pcurve.points());
+        worst = worst.max(probe.point(at).distance_squared(cursor.point_in_span(t)));
+    }
+    worst.sqrt()
+}
 
 /// The greatest deviations so far.
 #[derive(Clone, Debug, Default)]

@@ -1,7 +1,9 @@
 //! A control net seen with an outer and an inner parameter, and sums over rectangles of it.
 
 use super::Sums;
+use super::pairs::{Pair, PairSums, Row};
 use crate::gauss;
+use crate::lanes::Lanes;
 use crate::span::{Span, full_spans, weighted_sum};
 use coolinggen_nurbs::{Homogeneous, Knots, MAX_DEGREE, Surface, VectorSpace};
 use glam::DVec3;
@@ -150,10 +152,26 @@ impl<'s, V: Frame> Net<'s, V> {
         let stride = 2 * q + 3;
         let points = self.order[1 - self.outer];
         // Sums of their own: the compiler keeps them in registers.
-        let mut row = Sums::default();
+        let (mut row, mut pairs) = (Sums::default(), PairSums::zero());
         for k in lower..upper {
             let first = self.spans[k] - q;
             let (values, slopes) = (&self.rows[0][first..=first + q], &self.rows[1][first..=first + q]);
+            if q == 3
+                && points.is_multiple_of(2)
+                && let Some(control) = Row::new(values, slopes)
+            {
+                let table = &self.table[k * points * stride..(k + 1) * points * stride];
+                for nodes in table.chunks_exact(2 * stride) {
+                    let (one, two) = nodes.split_at(stride);
+                    let (mut n, mut d) = ([Pair::from(0.0); 4], [Pair::from(0.0); 4]);
+                    for k in 0..4 {
+                        n[k] = Lanes([one[k + 1], two[k + 1]]);
+                        d[k] = Lanes([one[k + 5], two[k + 5]]);
+                    }
+                    pairs.add(&control, Lanes([one[0] * weight, two[0] * weight]), &n, &d);
+                }
+                continue;
+            }
             for node in self.table[k * points * stride..(k + 1) * points * stride].chunks_exact(stride) {
                 let (n, d) = (&node[1..q + 2], &node[q + 2..]);
                 let value = weighted_sum(n, values);
@@ -162,7 +180,13 @@ impl<'s, V: Frame> Net<'s, V> {
                 self.add(&mut row, node[0] * weight, value, along_a, along_b);
             }
         }
+        row += pairs.total(self.sense());
         *sums += row;
+    }
+
+    /// 1 where the derivatives in `a` and `b` come in the order of the surface's parameters, else -1.
+    pub(super) fn sense(&self) -> f64 {
+        if self.outer == 0 { 1.0 } else { -1.0 }
     }
 
     fn tabulate(&mut self) {

@@ -3,12 +3,15 @@
 //! With the integral over `b` (one parameter) inside the one over `a` (the other), a loop contributes
 //! `-+ integral of F(a, b) da` along itself, `F` the integral over `b` from a fixed line. Of that, the part up to
 //! the knot line nearest to the loop is a sum over rectangles, done with tabulated basis functions; what is left
-//! between knot line and loop is a strip within one row of spans.
+//! between knot line and loop is a strip within one row of spans. Small loops (`cells`) and whole ruled faces (`ruled`)
+//! take shorter ways.
 
-use super::Sums;
 use super::net::{Frame, Net, Rectangle};
+use super::pairs::{Pair, PairSums, Row};
+use super::{Sums, cells, ruled};
 use crate::boundary::{Path, cuts, walk};
 use crate::gauss::{self, MAX_POINTS};
+use crate::lanes::Lanes;
 use crate::model::Loop;
 use crate::span::{Span, weighted_sum};
 use coolinggen_nurbs::{MAX_DEGREE, RationalSurface, Surface};
@@ -16,6 +19,9 @@ use glam::{DVec2, DVec3};
 
 /// What one loop adds to the sums over a part of `surface`.
 pub(super) fn integrate(surface: &Surface<DVec3>, bound: &Loop) -> Sums {
+    if let Some(sums) = ruled::integrate(surface, bound).or_else(|| cells::integrate(surface, bound)) {
+        return sums;
+    }
     // X (X . n) has degree 4 p - 1 in each parameter; six points at least, for the root in the area.
     let points = |degree: usize| (2 * degree).max(6);
     let (p, q) = (surface.knots_u().degree(), surface.knots_v().degree());
@@ -25,7 +31,15 @@ pub(super) fn integrate(surface: &Surface<DVec3>, bound: &Loop) -> Sums {
 /// Sums over the part of `surface` inside `loops`: rules of growing order until two agree.
 pub(super) fn integrate_rational(surface: &RationalSurface<DVec3>, loops: &[Loop]) -> Sums {
     let h = surface.homogeneous();
-    let of_order = |n: usize| super::total(loops.iter().map(|bound| sum_over_loop(h, bound, [n, n])));
+    let mut small = Sums::default();
+    let mut large = Vec::with_capacity(loops.len());
+    for bound in loops {
+        match cells::integrate(h, bound) {
+            Some(sums) => small += sums,
+            None => large.push(bound),
+        }
+    }
+    let of_order = |n: usize| super::total(large.iter().map(|bound| sum_over_loop(h, bound, [n, n])));
     let mut last = of_order(10);
     for n in [14, 20, 28, MAX_POINTS] {
         let next = of_order(n);
@@ -38,6 +52,7 @@ pub(super) fn integrate_rational(surface: &RationalSurface<DVec3>, loops: &[Loop
             break;
         }
     }
+    last += small;
     last
 }
 
@@ -163,6 +178,7 @@ impl<V: Frame> Sweep<'_, '_, V> {
         let (mut na, mut da) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
         let (mut nb, mut db) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
         let mut rows = [[V::default(); MAX_DEGREE + 1]; 2];
+        let mut pairs = PairSums::zero();
         let (p, q) = (self.net.knots[outer].degree(), self.net.knots[inner].degree());
         for &(s, w) in gauss::rule(n) {
             let (at, slope) = path.slope(start + (end - start) * s);
@@ -178,7 +194,19 @@ impl<V: Frame> Sweep<'_, '_, V> {
                 let b = span_b.first() + k;
                 (rows[0][k], rows[1][k]) = self.net.across(span_a.first(), b, &na[..=p], &da[..=p]);
             }
-            for &(s, w) in gauss::rule(order[inner]) {
+            let rule = gauss::rule(order[inner]);
+            if q == 3
+                && rule.len().is_multiple_of(2)
+                && let Some(control) = Row::new(&rows[0][..=q], &rows[1][..=q])
+            {
+                for nodes in rule.chunks_exact(2) {
+                    let b = Lanes([line + height * nodes[0].0, line + height * nodes[1].0]);
+                    let (n, d) = span_b.fixed_slopes::<4, Pair>(b);
+                    pairs.add(&control, Lanes([weight * nodes[0].1, weight * nodes[1].1]), &n, &d);
+                }
+                continue;
+            }
+            for &(s, w) in rule {
                 span_b.slopes(line + height * s, &mut nb, &mut db);
                 let value = weighted_sum(&nb[..=q], &rows[0]);
                 let along_a = weighted_sum(&nb[..=q], &rows[1]);
@@ -186,6 +214,7 @@ impl<V: Frame> Sweep<'_, '_, V> {
                 self.net.add(&mut self.sums, weight * w, value, along_a, along_b);
             }
         }
+        self.sums += pairs.total(self.net.sense());
     }
 
     /// Adds the rectangle under the pieces so far.

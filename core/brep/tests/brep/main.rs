@@ -5,6 +5,7 @@ mod build;
 mod check;
 mod domain;
 mod mass;
+mod mass_small;
 mod mass_trimmed;
 mod mutations;
 mod solids;

@@ -1,7 +1,7 @@
 //! From shape to topology: the faces of a bore, and the holes they leave in the faces they end on.
 
 use super::BoreError;
-use super::found::{Found, Piece, key_of};
+use super::found::{EndTrace, Found, Piece, key_of};
 use super::legs::Leg;
 use super::rims::Rim;
 use super::ring::{Interpolators, Trace};
@@ -138,7 +138,7 @@ impl Drill {
 }
 
 /// The delimiting curves of one end as a polygon.
-fn rim(traces: &[Option<(FaceId, Trace)>]) -> Rim {
+fn rim(traces: &[EndTrace]) -> Rim {
     const LEAST_STEPS: usize = 24;
     let traces: Vec<&(FaceId, Trace)> = traces.iter().flatten().collect();
     let steps = LEAST_STEPS.div_ceil(traces.len().max(1));
@@ -320,13 +320,7 @@ fn points_away(model: &Model, face: FaceId, shape: &BoreShape) -> bool {
 }
 
 /// A ring as the border of a hole in the faces it lies on.
-fn hole(
-    model: &Model,
-    shape: &BoreShape,
-    mouth: &Mouth,
-    ring: &Ring,
-    traces: &[Option<(FaceId, Trace)>],
-) -> Vec<RingPiece> {
+fn hole(model: &Model, shape: &BoreShape, mouth: &Mouth, ring: &Ring, traces: &[EndTrace]) -> Vec<RingPiece> {
     let (_, u, v) = model.face(mouth.face).surface.first_derivatives(mouth.at.x, mouth.at.y);
     // Rings run counterclockwise about the axis; holes clockwise about the face's normal.
     let forward = u.cross(v).dot(shape.frame.axis) < 0.0;

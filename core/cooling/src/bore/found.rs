@@ -13,7 +13,6 @@ use super::target::{Inquiry, Mouth, Ray, Target};
 use coolinggen_brep::{Content, EdgeId, FaceId, Key, Model};
 use coolinggen_nurbs::Curve;
 use glam::{DVec2, DVec3};
-use std::cell::RefCell;
 use std::collections::HashMap;
 
 /// A piece of the bore between two neighbouring seams: part of one path.
@@ -24,14 +23,17 @@ pub(super) struct Piece {
     pub(super) to: f64,
 }
 
+/// A delimiting curve with the face it lies on; none for a point.
+pub(super) type EndTrace = Option<(FaceId, Trace)>;
+
 /// What is found of a bore.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
     /// The legs of every path at both ends.
     pub(super) legs: [Vec<Vec<Leg>>; 2],
     pub(super) pieces: Vec<Piece>,
-    /// The delimiting curves, each with the face it lies on; none where a piece has no length.
-    pub(super) traces: [Vec<Option<(FaceId, Trace)>>; 2],
+    /// The delimiting curves at both ends, none where a piece has no length.
+    pub(super) traces: [Vec<EndTrace>; 2],
     /// The curves of the sections between the ends.
     pub(super) middles: Vec<Vec<Option<Curve<DVec3>>>>,
     /// The faces at which the search began.
@@ -55,21 +57,18 @@ impl Found {
         ends: [(&[FaceId], Mouth); 2],
         wholes: &dyn Wholes,
     ) -> Result<Self, BoreError> {
-        let inquiries = [RefCell::default(), RefCell::default()];
-        let target = |i: usize| Target { model, faces: ends[i].0, inquiries: &inquiries[i] };
-        let targets = [target(0), target(1)];
+        let targets = ends.map(|(faces, _)| Target::new(model, faces));
         let last = shape.sections.len() - 1;
         let legs =
             [end_legs(&targets[0], shape, 0, &ends[0].1)?, end_legs(&targets[1], shape, last, &ends[1].1)?];
         let pieces = pieces(shape, &legs);
-        let spans: Vec<usize> = (pieces.iter())
-            .map(|piece| spans(interpolators, shape, &targets, &legs, piece))
-            .collect::<Result<_, _>>()?;
-        let mut traces: [Vec<Option<(FaceId, Trace)>>; 2] = [Vec::new(), Vec::new()];
-        for (side, section) in [(0, 0), (1, last)] {
-            for (piece, &spans) in pieces.iter().zip(&spans) {
-                let at = (side, section);
-                traces[side].push(end_trace(interpolators, shape, &targets, &legs, at, piece, spans)?);
+        let mut spans = Vec::with_capacity(pieces.len());
+        let mut traces: [Vec<EndTrace>; 2] = [Vec::new(), Vec::new()];
+        for piece in &pieces {
+            let (count, pair) = end_traces(interpolators, shape, &targets, &legs, piece)?;
+            spans.push(count);
+            for (traces, trace) in traces.iter_mut().zip(pair) {
+                traces.push(trace);
             }
         }
         let mut middles = Vec::with_capacity(last.saturating_sub(1));
@@ -78,7 +77,7 @@ impl Found {
                 .map(|(piece, &spans)| middle_curve(interpolators, shape, section, piece, spans));
             middles.push(curves.collect::<Result<_, _>>()?);
         }
-        let inquiries = inquiries.map(RefCell::into_inner);
+        let inquiries = targets.map(Target::into_inquiries);
         let mouths = ends.map(|(_, mouth)| mouth.face);
         let beyond = inquiries.iter().flatten().filter_map(|inquiry| inquiry.answer.map(|over| over.to));
         let wholes = mouths.into_iter().chain(beyond).map(|face| (face, wholes.whole(face))).collect();
@@ -94,9 +93,8 @@ impl Found {
     ) -> Option<Self> {
         let mut found = self.clone();
         for side in 0..2 {
-            let unheard = RefCell::default();
             let (faces, mouth) = ends[side];
-            let target = Target { model, faces, inquiries: &unheard };
+            let target = Target::new(model, faces);
             let mut now = Renamed::default();
             now.face(self.mouths[side], mouth.face)?;
             for inquiry in &self.inquiries[side] {
@@ -163,14 +161,14 @@ impl Content for BoreShape {
     }
 }
 
-/// Spans enough for a piece at both ends.
-fn spans(
+/// The delimiting curves of a piece at both ends, in as many spans as both need, and their number.
+fn end_traces(
     interpolators: &mut Interpolators,
     shape: &BoreShape,
     targets: &[Target<'_>; 2],
     end_legs: &[Vec<Vec<Leg>>; 2],
     piece: &Piece,
-) -> Result<usize, BoreError> {
+) -> Result<(usize, [EndTrace; 2]), BoreError> {
     let mut spans = match shape.sections[0].paths[piece.path] {
         // As fine as keeps a middle ring within 1e-6 of its radius.
         Path::Arc { sweep, .. } => {
@@ -179,35 +177,33 @@ fn spans(
         Path::Line { .. } | Path::Fan { .. } | Path::Point(_) => 4,
     };
     let last = shape.sections.len() - 1;
-    for (side, section) in [(0, 0), (1, last)] {
-        if shape.sections[section].paths[piece.path].is_point() {
-            continue;
+    let rays = [0, last].map(|section| move |t: f64| ray(shape, section, piece.path, t));
+    let ends = [0, 1].map(|side| {
+        let section = [0, last][side];
+        (!shape.sections[section].paths[piece.path].is_point()).then(|| {
+            let leg = leg_of(&end_legs[side][piece.path], piece);
+            stretch(shape, piece, &targets[side], leg, &rays[side])
+        })
+    });
+    let mut traces = [None, None];
+    for (end, trace) in ends.iter().zip(&mut traces) {
+        if let Some(stretch) = end {
+            let (count, found) = stretch.traced_closely(interpolators, spans)?;
+            spans = count;
+            *trace = Some((count, stretch.face, found));
         }
-        let rays = |t: f64| ray(shape, section, piece.path, t);
-        let leg = leg_of(&end_legs[side][piece.path], piece);
-        let stretch = stretch(shape, piece, targets[side], leg, &rays);
-        spans = stretch.spans_needed(interpolators, spans)?;
     }
-    Ok(spans)
-}
-
-/// The delimiting curve of a piece at one end, with the face it lies on; none for points.
-fn end_trace(
-    interpolators: &mut Interpolators,
-    shape: &BoreShape,
-    targets: &[Target<'_>; 2],
-    end_legs: &[Vec<Vec<Leg>>; 2],
-    (side, section): (usize, usize),
-    piece: &Piece,
-    spans: usize,
-) -> Result<Option<(FaceId, Trace)>, BoreError> {
-    if shape.sections[section].paths[piece.path].is_point() {
-        return Ok(None);
+    // What served one end may be too few for the other.
+    let mut out = [None, None];
+    for ((end, trace), out) in ends.iter().zip(traces).zip(&mut out) {
+        *out = match (end, trace) {
+            (Some(stretch), Some((count, face, _))) if count != spans => {
+                Some((face, stretch.traced(interpolators, spans)?))
+            }
+            (_, trace) => trace.map(|(_, face, trace)| (face, trace)),
+        };
     }
-    let rays = |t: f64| ray(shape, section, piece.path, t);
-    let leg = leg_of(&end_legs[side][piece.path], piece);
-    let stretch = stretch(shape, piece, targets[side], leg, &rays);
-    Ok(Some((leg.face, stretch.traced(interpolators, spans)?)))
+    Ok((spans, out))
 }
 
 /// The curve of a piece in a section between the ends.
@@ -231,13 +227,13 @@ fn middle_curve(
 }
 
 /// What is to be traced of a piece on its leg.
-fn stretch<'a>(
+fn stretch<'a, 'm>(
     shape: &BoreShape,
     piece: &Piece,
-    target: Target<'a>,
+    target: &'a Target<'m>,
     leg: &Leg,
     rays: &'a dyn Fn(f64) -> Ray,
-) -> Stretch<'a> {
+) -> Stretch<'a, 'm> {
     let (range, grading) = ((piece.from, piece.to), shape.sections[0].paths[piece.path].grading());
     Stretch { target, face: leg.face, rays, range, grading, start: leg.start }
 }

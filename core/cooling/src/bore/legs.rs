@@ -42,8 +42,8 @@ pub(super) fn legs(
 }
 
 /// A path followed so far.
-struct Walk<'w> {
-    target: &'w Target<'w>,
+struct Walk<'w, 'm> {
+    target: &'w Target<'m>,
     rays: &'w dyn Fn(f64) -> Ray,
     out: Vec<Leg>,
     /// The leg it is on.
@@ -53,7 +53,7 @@ struct Walk<'w> {
     hit: Hit,
 }
 
-impl Walk<'_> {
+impl Walk<'_, '_> {
     /// Goes on to `t`; first to where it may have been over a border in between and come back.
     fn step(&mut self, t: f64, depth: usize) -> Result<(), BoreError> {
         const DEEPEST: usize = 6;
@@ -67,7 +67,8 @@ impl Walk<'_> {
             walk.step(0.5 * (walk.at + t), depth)?;
             walk.step(t, depth)
         };
-        let Some(hit) = self.target.meet(self.leg.face, &ray, self.hit.at, self.hit.along) else {
+        let near = self.target.ahead(self.leg.face, self.hit.at, self.hit.at_slope * (t - self.at));
+        let Some(hit) = self.target.meet(self.leg.face, &ray, near, self.hit.along) else {
             return halves(self, BoreError::Misses);
         };
         if self.target.holds(self.leg.face, hit.at) {

@@ -3,8 +3,8 @@
 use super::BoreError;
 use super::shape::Grading;
 use super::target::{Hit, Ray, Target};
-use coolinggen_brep::FaceId;
-use coolinggen_nurbs::{Curve, Interpolator, ParametricCurve, ParametricSurface};
+use coolinggen_brep::{FaceId, deviation_amid_spans};
+use coolinggen_nurbs::{Curve, Interpolator};
 use glam::{DVec2, DVec3};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -39,8 +39,8 @@ impl Interpolators {
 }
 
 /// What is to be traced: the hits of a path's rays between two parameters on one face.
-pub(super) struct Stretch<'a> {
-    pub(super) target: Target<'a>,
+pub(super) struct Stretch<'a, 'm> {
+    pub(super) target: &'a Target<'m>,
     pub(super) face: FaceId,
     pub(super) rays: &'a dyn Fn(f64) -> Ray,
     pub(super) range: (f64, f64),
@@ -49,15 +49,26 @@ pub(super) struct Stretch<'a> {
     pub(super) start: (DVec2, f64),
 }
 
-impl Stretch<'_> {
+impl Stretch<'_, '_> {
     /// The trace in `spans` spans, and how far it is off relative to the tolerance.
     fn trace(&self, interpolators: &mut Interpolators, spans: usize) -> Result<(Trace, f64), BoreError> {
         let mut hits: Vec<Hit> = Vec::with_capacity(spans + 1);
-        let (mut near, mut along) = self.start;
+        let mut before: Option<(f64, DVec2)> = None;
         for k in 0..=spans {
             let t = self.grading.at(self.range, k, spans);
+            // Where the hits so far lead: the better the guess, the fewer the steps from it.
+            let (near, along) = match hits.last() {
+                None => self.start,
+                Some(last) => {
+                    let at = |k: usize| self.grading.at(self.range, k, spans);
+                    let step = t - at(k - 1);
+                    let turn = before.map_or(DVec2::ZERO, |(step, slope)| (last.at_slope - slope) / step);
+                    before = Some((step, last.at_slope));
+                    let by = (last.at_slope + turn * (0.5 * step)) * step;
+                    (self.target.ahead(self.face, last.at, by), last.along)
+                }
+            };
             let hit = self.target.meet(self.face, &(self.rays)(t), near, along).ok_or(BoreError::Misses)?;
-            (near, along) = (hit.at, hit.along);
             hits.push(hit);
         }
         let points: Vec<DVec3> = hits.iter().map(|h| h.point).collect();
@@ -68,26 +79,21 @@ impl Stretch<'_> {
         let curve = interpolator.curve_with_slopes(&points, first.slope * scale, last.slope * scale)?;
         let pcurve =
             interpolator.curve_with_slopes(&parameters, first.at_slope * scale, last.at_slope * scale)?;
-        let surface = &self.target.model.face(self.face).surface;
-        let mut worst = 0.0f64;
-        for k in 0..spans {
-            let t = (k as f64 + 0.5) / spans as f64;
-            let q = pcurve.point(t);
-            worst = worst.max(surface.point(q.x, q.y).distance(curve.point(t)));
-        }
+        let worst = deviation_amid_spans(self.target.surface(self.face), &curve, &pcurve);
         Ok((Trace { curve, pcurve }, worst / TOLERANCE))
     }
 
-    /// Spans enough for the tolerance, `least` at least: the error falls with the fourth power of the step.
-    pub(super) fn spans_needed(
+    /// The trace with spans enough for the tolerance, `least` at least, and their number: the error falls with the
+    /// fourth power of the step.
+    pub(super) fn traced_closely(
         &self,
         interpolators: &mut Interpolators,
         least: usize,
-    ) -> Result<usize, BoreError> {
+    ) -> Result<(usize, Trace), BoreError> {
         let mut spans = least;
         loop {
-            let ratio = match self.trace(interpolators, spans) {
-                Ok((_, ratio)) => ratio,
+            let (trace, ratio) = match self.trace(interpolators, spans) {
+                Ok(traced) => traced,
                 // Hits that lie far from each other are not found one from the other.
                 Err(BoreError::Misses) if 2 * spans <= MOST_SPANS => {
                     spans *= 2;
@@ -96,7 +102,7 @@ impl Stretch<'_> {
                 Err(error) => return Err(error),
             };
             if ratio <= 1.0 {
-                return Ok(spans);
+                return Ok((spans, trace));
             }
             if spans >= MOST_SPANS {
                 return Err(BoreError::Inaccurate);

@@ -1,8 +1,8 @@
 //! What a bore ends on: a set of faces joined at their borders.
 
 use super::BoreError;
-use coolinggen_brep::{EdgeId, FaceId, Model};
-use coolinggen_nurbs::{LineHit, ParametricCurve, ParametricSurface, line_meets_surface};
+use coolinggen_brep::{EdgeId, FaceId, Model, SurfaceGeometry, SurfaceProbe};
+use coolinggen_nurbs::{LineHit, ParametricCurve, ParametricSurface, line_meets};
 use glam::{DMat3, DVec2, DVec3};
 use std::cell::RefCell;
 
@@ -92,20 +92,51 @@ enum Side {
 }
 
 /// Faces that a bore may end on.
-#[derive(Clone, Copy)]
 pub(crate) struct Target<'m> {
-    pub(crate) model: &'m Model,
-    pub(crate) faces: &'m [FaceId],
+    model: &'m Model,
+    faces: &'m [FaceId],
     /// All that has been asked of the borders.
-    pub(super) inquiries: &'m RefCell<Vec<Inquiry>>,
+    inquiries: RefCell<Vec<Inquiry>>,
+    /// The face met last: the next meeting is mostly nearby.
+    last: RefCell<Option<(FaceId, SurfaceProbe<'m>)>>,
 }
 
-impl Target<'_> {
+impl<'m> Target<'m> {
+    pub(super) fn new(model: &'m Model, faces: &'m [FaceId]) -> Self {
+        Self { model, faces, inquiries: RefCell::default(), last: RefCell::default() }
+    }
+
+    /// All that has been asked of the borders.
+    pub(super) fn into_inquiries(self) -> Vec<Inquiry> {
+        self.inquiries.into_inner()
+    }
+
+    /// The surface of a face.
+    pub(super) fn surface(&self, face: FaceId) -> &'m SurfaceGeometry {
+        &self.model.face(face).surface
+    }
+
     /// Where a ray meets a face, from parameters nearby.
     pub(super) fn meet(&self, face: FaceId, ray: &Ray, near: DVec2, along: f64) -> Option<Hit> {
-        let surface = &self.model.face(face).surface;
-        let hit = line_meets_surface(surface, ray.origin, ray.direction, (near.x, near.y), along)?;
+        let surface = self.surface(face);
+        let mut last = self.last.borrow_mut();
+        let probe = match &mut *last {
+            Some((id, probe)) if *id == face => probe,
+            other => &mut other.insert((face, SurfaceProbe::new(surface))).1,
+        };
+        let at = |u, v| probe.first_derivatives(u, v);
+        let hit = line_meets(surface.domain(), at, ray.origin, ray.direction, (near.x, near.y), along)?;
         Some(with_slopes(&hit, ray))
+    }
+
+    /// Where on a face to look for the next hit, which slopes promise `by` from the one at `last`: there, or at `last`
+    /// itself where they point far or off the face. Hits at a flat angle do not follow them so far, and the search would
+    /// end on another part of the continued surface.
+    pub(super) fn ahead(&self, face: FaceId, last: DVec2, by: DVec2) -> DVec2 {
+        const FAR: f64 = 0.1;
+        let ((u0, u1), (v0, v1)) = self.surface(face).domain();
+        let near = by.x.abs() <= FAR * (u1 - u0) && by.y.abs() <= FAR * (v1 - v0);
+        if near && self.holds(face, last + by) { last + by } else { last }
     }
 
     /// Where a ray meets the target near a place of `face`: on that face, or on a neighbour if the place was not exact.

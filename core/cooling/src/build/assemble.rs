@@ -169,7 +169,7 @@ fn add_bores(
     }
     if let Some(stack) = stack {
         bores.slots =
-            add_slot_rows(blank, &stack.sections, &stack.tails(), &plan.slot_rows, plan.least_ligament)?;
+            add_slot_rows(blank, &stack.sections, &stack.tails, &plan.slot_rows, plan.least_ligament)?;
         bores.crossovers = add_crossover_rows(blank, plan)?;
         bores.pins = add_pin_arrays(blank, stack, plan)?;
     }

@@ -338,5 +338,10 @@ fn window(surface: &Surface<DVec3>, border: &Loop) -> Option<Surface<DVec3>> {
     let margin = 0.1 * (high - low);
     let ((u0, u1), (v0, v1)) = surface.domain();
     let (low, high) = ((low - margin).max(DVec2::new(u0, v0)), (high + margin).min(DVec2::new(u1, v1)));
-    surface.restricted_u(low.x, high.x).ok()?.restricted_v(low.y, high.y).ok()
+    // Across the shorter side of the net first: what is cut then is small.
+    if surface.counts().0 < surface.counts().1 {
+        surface.restricted_v(low.y, high.y).ok()?.restricted_u(low.x, high.x).ok()
+    } else {
+        surface.restricted_u(low.x, high.x).ok()?.restricted_v(low.y, high.y).ok()
+    }
 }

@@ -31,34 +31,52 @@ pub(super) struct Bridged {
 }
 
 impl Bridged {
-    /// Bridges the joints of the leading edge and the sharp part of the nose.
+    /// Bridges the joints of the leading edge and the sharp part of the nose: without a `width` as a spline through what
+    /// is left does, else by a [`bridge`] that reaches beyond the sharp part by `width` times the end's radius. The wider it
+    /// is, the blunter, and the farther from the blade.
     pub(super) fn new(
         grid: &Grid,
         section: &Section,
         offset: &OffsetSection,
         ends: EndRadii,
+        width: Option<f64>,
     ) -> Result<Self, BuildError> {
         let radii = ends.in_chart(section);
-        let lost = too_sharp(grid, section, offset, radii.0);
+        let lost = too_sharp(grid, section, offset, radii.0).map(|lost| {
+            let Some(width) = width else { return lost };
+            let shoulders = [*lost.start(), *lost.end()].map(|u| offset.outline.curve().point(u));
+            let near = |u: &&f64| {
+                let point = offset.outline.curve().point(**u);
+                shoulders.iter().any(|shoulder| shoulder.distance(point) < width * radii.0)
+            };
+            let (low, high) = (lost.start(), lost.end());
+            grid.nodes.iter().filter(near).fold(*low..=*high, |l, u| l.start().min(*u)..=l.end().max(*u))
+        });
         let (start, end) = grid.leading_edge;
         let joints = [start, end].map(|joint| {
             let at = offset.outline.curve().point(joint);
             (joint, at, REACH * at.distance(section.outline.curve().point(joint)))
         });
-        let mut kept = Vec::new();
-        let mut nodes = Vec::new();
+        let (mut kept, mut nodes, mut gap) = (Vec::new(), Vec::<(DVec2, DVec2)>::new(), false);
         for &u in &grid.nodes {
             let point = offset.outline.curve().point(u);
             let near = |(joint, at, reach): &(f64, DVec2, f64)| {
                 (u - joint).abs() < 0.5 * (end - start) && point.distance(*at) < *reach
             };
-            if !joints.iter().any(near) && !lost.as_ref().is_some_and(|lost| lost.contains(&u)) {
-                kept.push(u);
-                nodes.push((point, offset.outline.frame(u).tangent));
+            if lost.as_ref().is_some_and(|lost| lost.contains(&u)) {
+                gap = true;
+            } else if !joints.iter().any(near) {
+                let node = (point, offset.outline.frame(u).tangent);
+                if let Some(&last) = nodes.last().filter(|_| gap && width.is_some()) {
+                    nodes.extend(bridge(last, node));
+                }
+                gap = false;
+                kept.push((u, nodes.len()));
+                nodes.push(node);
             }
         }
         let (outline, lengths) = through(&nodes, offset.outline.inward())?;
-        let pairs: Vec<(f64, f64)> = kept.into_iter().zip(lengths).collect();
+        let pairs: Vec<(f64, f64)> = kept.into_iter().map(|(u, node)| (u, lengths[node])).collect();
         let camber = camber(grid, section, &outline, &pairs, radii)?;
         // Where it exists the plain offset's circle is the better start: the bridge may have changed the front.
         let near = offset.circle.as_ref().map(|c| Contact {
@@ -81,6 +99,13 @@ impl Bridged {
     /// The grid's parameter u at a length.
     fn u_at(&self, length: f64) -> f64 {
         mapped(&self.pairs, length, |p| p.1, |p| p.0)
+    }
+
+    /// How many times sharper than the end's arc the nose is between two parameters of an opened outline.
+    pub(super) fn bend(opened: &OffsetSection, (start, end): (f64, f64), radius: f64) -> f64 {
+        const SAMPLES: u32 = 300;
+        let at = |i: u32| start + (end - start) * (f64::from(i) + 0.5) / f64::from(SAMPLES);
+        (0..SAMPLES).map(|i| opened.outline.curvature(at(i)) * radius).fold(0.0, f64::max)
     }
 
     /// The offset with its nose opened by the end circle, and where the parameters `ends` of the grid lie on it. Without
@@ -155,6 +180,31 @@ fn too_sharp(
         }
     }
     lost
+}
+
+/// Points between two others, with unit tangents: on the cubic whose ends point along the tangents and reach as far towards
+/// where these meet as a circle's would. A spline left to itself would bulge where the nodes thin out.
+fn bridge(from: (DVec2, DVec2), to: (DVec2, DVec2)) -> Vec<(DVec2, DVec2)> {
+    const NODES: u32 = 16;
+    let (turn, chord) = (angle_between(from.1, to.1), to.0 - from.0);
+    let sine = turn.sin();
+    // Lengths of the tangents up to where they meet; where they hardly do, those of a circle's.
+    let reach = [chord.perp_dot(to.1) / sine, from.1.perp_dot(chord) / sine];
+    let half = 0.5 * turn.abs();
+    let round = 0.5 * chord.length() / half.cos().max(0.05);
+    let reach = reach.map(|r| if r.is_finite() { r.clamp(0.5 * round, 2.0 * round) } else { round });
+    let share = if half > 1e-6 { 4.0 / 3.0 * (0.5 * half).tan() / half.tan().max(1e-9) } else { 2.0 / 3.0 };
+    let [a, b] = [from.0 + from.1 * (reach[0] * share), to.0 - to.1 * (reach[1] * share)];
+    (1..NODES)
+        .map(|i| {
+            let t = f64::from(i) / f64::from(NODES);
+            let s = 1.0 - t;
+            let point =
+                from.0 * (s * s * s) + a * (3.0 * s * s * t) + b * (3.0 * s * t * t) + to.0 * (t * t * t);
+            let slope = (a - from.0) * (s * s) + (b - a) * (2.0 * s * t) + (to.0 - b) * (t * t);
+            (point, slope.normalize())
+        })
+        .collect()
 }
 
 /// The smooth curve through points with their unit tangents, by about its length, and the lengths at the points.

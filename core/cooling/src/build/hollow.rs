@@ -58,7 +58,8 @@ impl Hollow {
                 let stack =
                     kept_stack.insert(settled(blade, space, grid, plan, shell, watch).map_err(blamed)?);
                 let turns = sites(stack, plan).map_err(blamed)?;
-                let check = ShellCheck { probe: Probe::new(blade), blade, space, shell, watch };
+                let (probe, kept) = (Probe::new(blade), stack.kept);
+                let check = ShellCheck { probe, blade, space, shell, kept, watch };
                 (passages, polygons) =
                     add_chambers(&mut model, blade, stack, plan, &turns, &check).map_err(blamed)?;
                 watch.go_on()?;

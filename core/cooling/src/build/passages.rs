@@ -104,6 +104,24 @@ pub(super) struct Link {
     pub(super) host: Host,
 }
 
+impl Passage {
+    /// Whether coolant enters at this end, if it is open. Where both ends open on one side, the first chamber's is the
+    /// inlet; a plenum has no other opening.
+    pub(super) fn enters(&self, end: usize) -> bool {
+        let one_side = self.ends[0].side == self.ends[1].side;
+        if one_side && self.ends.iter().all(PassageEnd::is_open) {
+            end == 0
+        } else {
+            self.ends[end].side == 0 || self.host != Host::Metal
+        }
+    }
+
+    /// Whether this end is an inlet at the hub.
+    pub(super) fn enters_at_hub(&self, end: usize) -> bool {
+        self.ends[end].is_open() && self.ends[end].side == 0 && self.enters(end)
+    }
+}
+
 impl PassageEnd {
     pub(super) fn is_open(&self) -> bool {
         self.v == [0.0, 1.0][self.side]

@@ -186,9 +186,11 @@ pub(super) fn wall_lines(sections: &[Section], wall: &WallPlan) -> Result<Vec<Wa
 pub(super) fn well_apart(v: &[f64]) -> Vec<usize> {
     const LEAST_GAP: f64 = 0.04;
     let Some(last) = v.len().checked_sub(1) else { return Vec::new() };
+    // In a short chamber, between two turns, thirds of the span stay: a cubic needs four sections.
+    let gap = LEAST_GAP.min(0.25 * (v[last] - v[0]));
     let mut kept: Vec<usize> = Vec::new();
     for i in 0..=last {
-        let clear = kept.last().is_none_or(|&k| v[i] - v[k] >= LEAST_GAP) && v[last] - v[i] >= LEAST_GAP;
+        let clear = kept.last().is_none_or(|&k| v[i] - v[k] >= gap) && v[last] - v[i] >= gap;
         if clear || i == 0 || i == last {
             kept.push(i);
         }

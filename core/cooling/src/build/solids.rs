@@ -2,13 +2,14 @@
 
 use super::cap::{Ring, add_cap, points_up};
 use super::error::BuildError;
-use super::inlet::add_extension;
+use super::inlet::{Duct, upward};
 use super::inserts::Insert;
-use super::passages::{Host, Link, Passage, PassageEnd};
+use super::passages::{Host, Link, Passage};
 use super::style;
-use coolinggen_blade::{Fault, StreamSpace, StreamSurface};
+use coolinggen_blade::{StreamSpace, StreamSurface};
 use coolinggen_brep::{FaceId, FaceUse, Model, Shell, Solid};
 use coolinggen_nurbs::NurbsError;
+use glam::DVec3;
 
 /// The face that ends a passage.
 #[derive(Clone, Copy, Debug)]
@@ -70,9 +71,11 @@ pub(super) fn add_caps(
     let mut openings: [Vec<Ring>; 2] = [Vec::new(), Vec::new()];
     let mut caps = Vec::with_capacity(passages.len());
     let mut extensions = vec![Vec::new(); passages.len()];
+    let down = match inlet_extension {
+        Some(length) => direction(model, &ends[0], passages, inserts)?.map(|up| (up, length)),
+        None => None,
+    };
     for (passage, extension) in passages.iter().zip(&mut extensions) {
-        let both_open = passage.ends.iter().all(PassageEnd::is_open);
-        let one_side = passage.ends[0].side == passage.ends[1].side;
         let mut own = Vec::with_capacity(2);
         for (i, end) in passage.ends.iter().enumerate() {
             let (open, side) = (end.is_open(), end.side);
@@ -83,22 +86,18 @@ pub(super) fn add_caps(
                 middle = space.surface(end.v)?;
                 &middle
             };
-            // Where both ends open on one side, the first chamber's is the inlet. A plenum has no other opening.
-            let plenum = passage.host != Host::Metal;
-            let enters = if both_open && one_side { i == 0 } else { side == 0 || plenum };
-            let (name, style) = match (open, enters, side) {
+            let (name, style) = match (open, passage.enters(i), side) {
                 (true, true, _) => (format!("coolant/inlet/{}", end.name), style::inlet()),
                 (true, false, _) => (format!("coolant/outlet/{}", end.name), style::outlet()),
                 (false, _, 0) => (format!("{}/hub_end", end.path), end.style.clone()),
                 (false, _, _) => (format!("{}/tip_end", end.path), end.style.clone()),
             };
             let in_metal = passage.host == Host::Metal;
-            let used = match inlet_extension {
-                Some(length) if open && enters && side == 0 => {
-                    if end.inserted.is_some() || !in_metal {
-                        return Err(no_extension(&end.name));
-                    }
-                    let mut faces = add_extension(model, &name, stream, &end.ring, length)?;
+            let used = match down {
+                Some((up, length)) if passage.enters_at_hub(i) => {
+                    let ring = seat(passages, inserts, passage).unwrap_or(&end.ring);
+                    let duct = Duct::new(model, &name, ring, up, length)?;
+                    let mut faces = duct.extend(model, &name, &end.ring, end.inserted.as_ref())?;
                     let closing = faces.pop();
                     *extension = faces;
                     closing
@@ -136,12 +135,28 @@ pub(super) fn add_caps(
     Ok(Caps { passages: caps, extensions, inserts: insert_caps, ends: end_faces })
 }
 
-/// Why an inlet in which an insert stands is not extended.
-fn no_extension(chamber: &str) -> BuildError {
-    let message =
-        format!("an insert stands in the inlet of chamber \"{chamber}\": gap and plenum have no one duct");
-    let fault = Fault::new("/cooling/inlet_extension", "geometry", message);
-    BuildError::Refused(vec![fault.hint("an insert that opens at the tip, or no extension")])
+/// The direction against which inlets at the hub go on; none where there is no such inlet.
+fn direction(
+    model: &Model,
+    hub: &StreamSurface,
+    passages: &[Passage],
+    inserts: &[Insert],
+) -> Result<Option<DVec3>, BuildError> {
+    let inlets = passages.iter().flat_map(|passage| {
+        let own = (0..2).filter(|&i| passage.enters_at_hub(i)).map(|i| &passage.ends[i]);
+        own.map(|end| (end.name.as_str(), seat(passages, inserts, passage).unwrap_or(&end.ring)))
+    });
+    upward(model, hub, inlets)
+}
+
+/// The opening of the chamber in which a plenum's insert stands.
+fn seat<'a>(passages: &'a [Passage], inserts: &'a [Insert], plenum: &Passage) -> Option<&'a Ring> {
+    let Host::Insert(index) = plenum.host else { return None };
+    let insert = &inserts[index];
+    let around = &passages[insert.passages[0]];
+    let gap = around.ends.iter().find(|end| end.is_open() && end.inserted.is_some());
+    let seat = insert.seat.as_ref().map(|seat| &seat.rings[insert.open]);
+    seat.or_else(|| gap.map(|end| &end.ring))
 }
 
 fn add_insert_caps(

@@ -64,7 +64,7 @@ impl TurnSpan {
 const TURN_SECTIONS: usize = 6;
 /// Rounds of finding where straight parts end.
 const ROUNDS: usize = 20;
-/// How far beyond hub and tip walls are followed.
+/// How far beyond hub and tip walls are followed where the blade goes on.
 const BEYOND: f64 = 0.03;
 /// How far the last section may lie beyond the turn's outer side, relative to its height.
 const OVERLAP: f64 = 0.01;
@@ -188,9 +188,12 @@ impl<'a> Paths<'a> {
     fn new(blade: &Blade, space: &StreamSpace, grid: &Grid, plan: &'a Plan) -> Result<Self, BuildError> {
         const STEPS: u32 = 8;
         let count = if plan.turns.is_empty() { 0 } else { STEPS + 1 };
-        let v = |i: u32| -BEYOND + (1.0 + 2.0 * BEYOND) * f64::from(i) / f64::from(STEPS);
-        let sections =
-            (0..count).map(|i| Section::new(blade, space, grid, v(i))).collect::<Result<_, _>>()?;
+        let through = |beyond: f64| {
+            let v = |i: u32| -beyond + (1.0 + 2.0 * beyond) * f64::from(i) / f64::from(STEPS);
+            (0..count).map(|i| Section::new(blade, space, grid, v(i))).collect::<Result<Vec<_>, _>>()
+        };
+        // A blade need not go on beyond its ends.
+        let sections = through(BEYOND).or_else(|_| through(0.0))?;
         Ok(Self { plan, sections })
     }
 

@@ -26,8 +26,12 @@ pub(super) struct Stack {
     /// Where the leading chamber's sides give way to its nose, on the offset of each section; none where an arc that
     /// touches the sides closes it.
     pub(super) nose: Option<Vec<(f64, f64)>>,
+    /// Least share of the shell's thickness that this nose keeps.
+    pub(super) kept: f64,
     /// How many times greater than the trailing chamber's fillets the arc is that ends it.
     pub(super) tail: f64,
+    /// The middle of that arc on each section.
+    pub(super) tails: Vec<DVec3>,
 }
 
 impl Stack {
@@ -83,22 +87,30 @@ impl Stack {
         if !refusals.is_empty() {
             return Err(BuildError::worst(refusals));
         }
-        let nose = match front {
-            None => None,
+        let (nose, kept) = match front {
+            None => (None, 1.0),
             Some(front) if natural_nose(grid, &sections, &offsets, plan, front) => {
-                Some(vec![grid.leading_edge; sections.len()])
+                (Some(vec![grid.leading_edge; sections.len()]), 1.0)
             }
-            Some(front) => round_noses(blade, grid, &sections, &mut offsets, shell, front, ends)?,
+            Some(front) => match round_noses(blade, grid, &sections, &mut offsets, shell, front, ends)? {
+                Some(noses) => (Some(noses.ends), noses.kept),
+                None => (None, 1.0),
+            },
         };
         let back = reach(&spans, plan, plan.chambers.len() - 1);
         let tail = tail(&sections, &offsets, back, |section| ends(section).in_chart(section).1);
-        Ok(Self { sections, offsets, walls, spans, nose, tail })
-    }
-
-    /// The middle of the trailing chamber's end on each section.
-    pub(super) fn tails(&self) -> Vec<DVec3> {
-        let tail = |(s, o): (&Section, &OffsetSection)| s.stream.to_space(o.camber.back().center);
-        self.sections.iter().zip(&self.offsets).map(tail).collect()
+        let tail_of = |(section, offset): (&Section, &OffsetSection)| {
+            let back = offset.camber.back();
+            // Without a blunt trailing edge it is the camber line's last circle.
+            if tail == 1.0 {
+                return section.stream.to_space(back.center);
+            }
+            let radius = tail * ends(section).back / section.scale(back.center);
+            let arc = circle_of_radius(&offset.outline, back, radius);
+            section.stream.to_space(arc.map_or(back.center, |arc| arc.center))
+        };
+        let tails = sections.iter().zip(&offsets).map(tail_of).collect();
+        Ok(Self { sections, offsets, walls, spans, nose, kept, tail, tails })
     }
 
     /// Indices of the sections that chamber `k` is lofted through: those within its span, less those nearer to a
@@ -173,7 +185,7 @@ fn round_noses(
     shell: &ShellPlan,
     span: [f64; 2],
     radii: impl Fn(&Section) -> EndRadii,
-) -> Result<Option<Vec<(f64, f64)>>, BuildError> {
+) -> Result<Option<Noses>, BuildError> {
     let within = |section: &Section| (span[0]..=span[1]).contains(&section.stream.v());
     // Arcs that touch behind the joints leave the sides smooth as they are.
     let behind_joints = |offset: &OffsetSection| {
@@ -183,29 +195,104 @@ fn round_noses(
     if sections.iter().zip(&*offsets).all(|(section, offset)| !within(section) || behind_joints(offset)) {
         return Ok(None);
     }
-    let bridged: Vec<Bridged> = (sections.iter().zip(&*offsets))
-        .map(|(section, offset)| Bridged::new(grid, section, offset, radii(section)))
-        .collect::<Result<_, _>>()?;
-    let mut ends = grid.leading_edge;
-    for (pressure, suction) in bridged.iter().filter_map(Bridged::contacts) {
-        ends = (ends.0.min(pressure), ends.1.max(suction));
-    }
-    let mut nose = Vec::with_capacity(sections.len());
-    for ((section, offset), bridged) in sections.iter().zip(offsets).zip(&bridged) {
-        let (opened, at) = bridged.opened(grid, section, radii(section), ends)?;
-        let radius = radii(section).in_chart(section).0;
-        if within(section)
-            && offset.sharp_nose.is_some()
-            && !sound_nose(blade, grid, section, &opened, shell, at)?
-        {
-            let scale = section.scale(opened.camber.front().center);
-            let refusal = offset.nose_refusal(radius).in_space(scale, radii(section).front);
-            return Err(BuildError::refused("/cooling/chambers/0", section.stream.v(), &refusal));
+    let widths = std::iter::once(None).chain(WIDTHS.map(Some));
+    let (mut best, mut refusal) = (None::<Noses>, None);
+    for width in widths {
+        match Noses::new(blade, grid, (sections, &*offsets), shell, span, &radii, width) {
+            Ok(noses) => {
+                let done = noses.kept >= FULL && (width.is_none() || noses.bend <= MOST_BEND);
+                if done || best.as_ref().is_none_or(|best| noses.better(best)) {
+                    best = Some(noses);
+                }
+                if done {
+                    break;
+                }
+            }
+            // Wider ones may leave the sides no length: the first refusal says most.
+            Err(error) => refusal = refusal.or(Some(error)),
         }
-        *offset = opened;
-        nose.push(at);
     }
-    Ok(Some(nose))
+    match (best, refusal) {
+        (Some(mut best), _) if best.kept >= LEAST_KEPT => {
+            let opened = std::mem::take(&mut best.offsets);
+            offsets.iter_mut().zip(opened).for_each(|(offset, opened)| *offset = opened);
+            Ok(Some(best))
+        }
+        (Some(best), _) => {
+            let (section, offset) = (&sections[best.thinnest], &offsets[best.thinnest]);
+            let radius = radii(section).in_chart(section).0;
+            let scale = section.scale(best.offsets[best.thinnest].camber.front().center);
+            let refusal = offset.nose_refusal(radius).in_space(scale, radii(section).front);
+            Err(BuildError::refused("/cooling/chambers/0", section.stream.v(), &refusal))
+        }
+        (None, Some(refusal)) => Err(refusal),
+        (None, None) => Ok(None),
+    }
+}
+
+/// By how many end radii bridges reach beyond the sharp part of the nose, tried in turn where a spline over the sharp part
+/// takes metal from the shell.
+const WIDTHS: [f64; 9] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
+/// How many times sharper than the end's arc the nose over a bridge may be for the first try to be taken.
+const MOST_BEND: f64 = 2.0;
+/// Share of the shell's thickness that is all of it, as far as turns are concerned.
+const FULL: f64 = 0.999;
+/// Least share of the shell's thickness round a nose, where no bridge keeps more.
+const LEAST_KEPT: f64 = 0.99;
+
+/// The noses of all sections, bridged and opened alike.
+struct Noses {
+    offsets: Vec<OffsetSection>,
+    /// Where the sides give way to the nose.
+    ends: Vec<(f64, f64)>,
+    /// How many times sharper than the end's arc the sharpest of them is.
+    bend: f64,
+    /// Least share of the shell's thickness that they keep, and index of the section where.
+    kept: f64,
+    thinnest: usize,
+}
+
+impl Noses {
+    /// Whether these keep more of the shell, or as much and are less bent.
+    fn better(&self, other: &Self) -> bool {
+        let class = |noses: &Self| (noses.kept >= LEAST_KEPT, noses.kept >= FULL);
+        class(self) > class(other) || (class(self) == class(other) && self.bend < other.bend)
+    }
+
+    /// Noses bridged by bridges of this width, in end radii, or by splines.
+    fn new(
+        blade: &Blade,
+        grid: &Grid,
+        (sections, offsets): (&[Section], &[OffsetSection]),
+        shell: &ShellPlan,
+        span: [f64; 2],
+        radii: impl Fn(&Section) -> EndRadii,
+        width: Option<f64>,
+    ) -> Result<Self, BuildError> {
+        let within = |section: &Section| (span[0]..=span[1]).contains(&section.stream.v());
+        let bridged: Vec<Bridged> = (sections.iter().zip(offsets))
+            .map(|(section, offset)| Bridged::new(grid, section, offset, radii(section), width))
+            .collect::<Result<_, _>>()?;
+        let mut joints = grid.leading_edge;
+        for (pressure, suction) in bridged.iter().filter_map(Bridged::contacts) {
+            joints = (joints.0.min(pressure), joints.1.max(suction));
+        }
+        let mut noses = Self { offsets: Vec::new(), ends: Vec::new(), bend: 0.0, kept: 1.0, thinnest: 0 };
+        for (i, ((section, offset), bridged)) in sections.iter().zip(offsets).zip(&bridged).enumerate() {
+            let (opened, at) = bridged.opened(grid, section, radii(section), joints)?;
+            let radius = radii(section).in_chart(section).0;
+            if within(section) && offset.sharp_nose.is_some() {
+                let kept = kept_by_nose(blade, grid, section, &opened, shell, at)?;
+                if kept < noses.kept {
+                    (noses.kept, noses.thinnest) = (kept, i);
+                }
+                noses.bend = noses.bend.max(Bridged::bend(&opened, at, radius));
+            }
+            noses.offsets.push(opened);
+            noses.ends.push(at);
+        }
+        Ok(noses)
+    }
 }
 
 /// How many times greater than `radius` an arc must be to close the trailing chamber before the sides end: more than 1
@@ -229,19 +316,18 @@ fn tail(
     factors.fold(1.0, f64::max)
 }
 
-/// Whether the nose of an outline between two of its parameters keeps the shell's thickness in space, but for the
-/// little that bridges cost.
-fn sound_nose(
+/// The least share of the shell's thickness, in space, that the nose of an outline between two of its parameters keeps.
+fn kept_by_nose(
     blade: &Blade,
     grid: &Grid,
     section: &Section,
     opened: &OffsetSection,
     shell: &ShellPlan,
     (start, end): (f64, f64),
-) -> Result<bool, BuildError> {
+) -> Result<f64, BuildError> {
     const SAMPLES: u32 = 40;
-    const LEAST_SHARE: f64 = 0.99;
     let v = section.stream.v();
+    let mut kept = f64::INFINITY;
     for i in 0..=SAMPLES {
         let u = start + (end - start) * f64::from(i) / f64::from(SAMPLES);
         let point = section.stream.to_space(opened.outline.curve().point(u));
@@ -252,12 +338,9 @@ fn sound_nose(
         } else {
             asked_thickness(grid, shell, foot.u, v)
         };
-        let least = LEAST_SHARE * asked;
-        if foot.distance < least {
-            return Ok(false);
-        }
+        kept = kept.min(foot.distance / asked);
     }
-    Ok(true)
+    Ok(kept)
 }
 
 /// The foot of a point behind the leading edge on the blade, with u as the grid has it there: negative on the pressure

@@ -179,7 +179,7 @@ fn inverse(pace: &Curve<f64>, u: f64, guess: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     let mut t = guess;
     for _ in 0..60 {
-        let [value, slope, _] = pace.derivatives(t);
+        let [value, slope] = pace.first_derivatives(t);
         let miss = value - u;
         *(if miss > 0.0 { &mut high } else { &mut low }) = t;
         let newton = t - miss / slope;
@@ -218,7 +218,7 @@ pub(super) fn crossing(surface: &SurfaceGeometry, stream: &StreamSurface, guess:
             let (point, along_u, along_v) = surface.first_derivatives(p.x, p.y);
             let gradient = stream.level(point).1;
             let v = -gradient.dot(along_u) / gradient.dot(along_v);
-            let speed = pace.derivatives(t)[1];
+            let speed = pace.first_derivatives(t)[1];
             (DVec2::new(1.0, v) * speed, (along_u + along_v * v) * speed)
         };
         let ((first_2d, first), (last_2d, last)) = (slope(0.0, parameters[0]), slope(1.0, parameters[count]));

@@ -12,7 +12,9 @@ use super::style;
 use super::tube::CutTube;
 use crate::plan::{Plan, ShellPlan, TurnPlan};
 use crate::section::SEGMENTS;
-use crate::turn::{EndRow, PARTS, TurnRefusal, TurnRequest, TurnSection, TurnShape, loft, mirrored};
+use crate::turn::{
+    EndRow, FORMS, Form, PARTS, TurnRefusal, TurnRequest, TurnSection, TurnShape, loft, mirrored,
+};
 use crate::watch::Watch;
 use coolinggen_blade::{Blade, Fault, Region, StreamSpace};
 use coolinggen_brep::{
@@ -83,7 +85,7 @@ pub(super) fn settled(
                 continue;
             }
             watch.go_on()?;
-            let shape = site.shape(std::array::from_fn(|_| coarse_nodes()))?;
+            let shape = site.mapped(&std::array::from_fn(|_| coarse_nodes()))?;
             let [front, top, back] = [0.0, 0.5, 1.0].map(|p| shape.area(p));
             let wanted = 0.5 * (front + back);
             settled &= (top / wanted - 1.0).abs() <= AREA_TOLERANCE;
@@ -103,17 +105,42 @@ fn coarse_nodes() -> Vec<f64> {
 }
 
 impl TurnSite<'_> {
-    /// The shape of the turn with rings at these nodes.
-    fn shape(&self, nodes: [Vec<f64>; SEGMENTS]) -> Result<TurnShape, BuildError> {
+    /// The shape of the turn with rings at these nodes, of the first form that has one.
+    fn mapped(&self, nodes: &[Vec<f64>; SEGMENTS]) -> Result<TurnShape, BuildError> {
+        self.first(|form| self.shape(form, nodes))
+    }
+
+    /// What the first form comes to that comes to anything; else why the very first does not.
+    fn first<T>(
+        &self,
+        of: impl Fn(Form) -> Result<Result<T, TurnRefusal>, BuildError>,
+    ) -> Result<T, BuildError> {
+        let mut first = None;
+        for form in FORMS {
+            match of(form)? {
+                Ok(found) => return Ok(found),
+                Err(refusal) => first = first.or(Some(refusal)),
+            }
+        }
+        Err(self.refused(&first.unwrap_or(TurnRefusal::Unmapped)))
+    }
+
+    /// The shape of the turn in a form, with rings at these nodes.
+    fn shape(
+        &self,
+        form: Form,
+        nodes: &[Vec<f64>; SEGMENTS],
+    ) -> Result<Result<TurnShape, TurnRefusal>, BuildError> {
         let request = TurnRequest {
             sections: &self.sections,
             inner: self.span.inner,
             outer: self.span.outer(),
             radius: self.span.radius,
             exponent: self.plan.exponent,
-            nodes,
+            form,
+            nodes: nodes.clone(),
         };
-        TurnShape::new(&request)?.map_err(|refusal| self.refused(&refusal))
+        TurnShape::new(&request)
     }
 
     fn refused(&self, refusal: &TurnRefusal) -> BuildError {
@@ -163,6 +190,8 @@ pub(super) struct ShellCheck<'a> {
     pub(super) blade: &'a Blade,
     pub(super) space: &'a StreamSpace,
     pub(super) shell: &'a ShellPlan,
+    /// Share of the shell's thickness that the leading chamber's nose keeps: a turn cannot keep more of it.
+    pub(super) kept: f64,
     pub(super) watch: &'a dyn Watch,
 }
 
@@ -182,19 +211,21 @@ impl ShellCheck<'_> {
         }
     }
 
-    /// The place where a turn comes nearest to the outer surface, if that is nearer than the shell allows.
-    fn thin(&self, surfaces: &[Surface<DVec3>]) -> Result<Option<TurnRefusal>, BuildError> {
+    /// The place where a turn comes nearest to the outer surface, if that is nearer than the shell allows; `leading` if its
+    /// outer closure begins as the leading chamber's nose.
+    fn thin(&self, surfaces: &[Surface<DVec3>], leading: bool) -> Result<Option<TurnRefusal>, BuildError> {
         const ACROSS: u32 = 6;
         const ALONG: u32 = 12;
         let mut worst: Option<(f64, TurnRefusal)> = None;
         for k in [0, 4, 5, 6, 7] {
+            let kept = if leading && k > 4 { self.kept } else { 1.0 };
             for (i, j) in (0..=ACROSS).flat_map(|i| (0..=ALONG).map(move |j| (i, j))) {
                 let at = surfaces[k].point(f64::from(i) / f64::from(ACROSS), f64::from(j) / f64::from(ALONG));
                 let foot = self.probe.foot(at)?;
                 let found = self.probe.thickness_at(at, &foot);
                 let asked = self.asked(foot.u, self.space.span_fraction(at)?);
                 let ratio = found / asked;
-                if ratio < 1.0 - SHELL_TOLERANCE && worst.as_ref().is_none_or(|(least, _)| ratio < *least) {
+                if ratio < kept - SHELL_TOLERANCE && worst.as_ref().is_none_or(|(least, _)| ratio < *least) {
                     worst = Some((ratio, TurnRefusal::ThinShell { part: PARTS[k], found, asked }));
                 }
             }
@@ -212,17 +243,21 @@ pub(super) fn add_turn(
 ) -> Result<Vec<FaceId>, BuildError> {
     let side = site.plan.side();
     let ends = [end_row(model, chambers[0], side, false)?, end_row(model, chambers[1], side, true)?];
-    let shape = site.shape(std::array::from_fn(|k| ends[0].curves[k].breaks()))?;
+    let nodes = std::array::from_fn(|k| ends[0].curves[k].breaks());
     // With q away from the front chamber's end at the tip, towards it at the hub, (t, q) turns as the chambers' (t, v).
     let first = 1 - side;
-    let lofted = loft(&shape, &ends, first, check.watch)?;
-    let refusal = match lofted.fold() {
-        None => check.thin(&lofted.surfaces)?,
-        folded => folded,
-    };
-    if let Some(refusal) = refusal {
-        return Err(site.refused(&refusal));
-    }
+    let lofted = site.first(|form| {
+        let shape = match site.shape(form, &nodes)? {
+            Ok(shape) => shape,
+            Err(refusal) => return Ok(Err(refusal)),
+        };
+        let lofted = loft(&shape, &ends, first, check.watch)?;
+        let refusal = match lofted.fold() {
+            None => check.thin(&lofted.surfaces, site.plan.front == 0)?,
+            folded => folded,
+        };
+        Ok(refusal.map_or(Ok(lofted), Err))
+    })?;
     // Edge of segment k in the end ring of a chamber, and whether it runs with t.
     let border = |chamber: usize, k: usize| {
         let segment = if chamber == 0 { k } else { mirrored(k) };

@@ -141,7 +141,8 @@ pub struct Cooling {
     #[schemars(extend("group" = "Holes"))]
     pub least_ligament: f64,
     /// Length by which the coolant goes on straight before its inlets at the hub, along the hub's normal in the middle of
-    /// each inlet to a plane across it, mm: room for a flow solver's inlet. The metal is as without it.
+    /// all inlets to planes across it, mm from the middle of each: room for a flow solver's inlet. The gap round an insert
+    /// and its plenum go on side by side, as far apart as the sheet parts them. Metal and insert are as without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.01, max = 10_000.0), extend("unit" = "mm"))]
     #[schemars(extend("group" = "Chambers"))]

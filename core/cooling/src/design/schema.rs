@@ -56,19 +56,55 @@ struct Limits {
 }
 
 impl Limits {
-    fn narrowed(&self, schema: &'static Map<String, Value>) -> Self {
-        let number = |key: &str| schema.get(key).and_then(Value::as_f64);
+    fn narrowed(&self, words: &Words) -> Self {
         // What the type holds limits what its field does not.
-        let widest = match schema.get("format").and_then(Value::as_str) {
-            Some("uint32") => Some(f64::from(u32::MAX)),
-            _ => None,
-        };
+        let widest = (words.format == Some("uint32")).then_some(f64::from(u32::MAX));
         Self {
-            minimum: number("minimum").or(self.minimum),
-            maximum: number("maximum").or(self.maximum).or(widest),
-            unit: schema.get("unit").and_then(Value::as_str).or(self.unit),
-            law: self.law || schema.get("law") == Some(&Value::Bool(true)),
+            minimum: words.minimum.or(self.minimum),
+            maximum: words.maximum.or(self.maximum).or(widest),
+            unit: words.unit.or(self.unit),
+            law: self.law || words.law,
         }
+    }
+}
+
+/// The words of a schema that every value is checked by, read in one pass: a table of points has thousands of values.
+#[derive(Clone, Copy, Default)]
+struct Words {
+    reference: Option<&'static str>,
+    any_of: Option<&'static [Value]>,
+    one_of: Option<&'static [Value]>,
+    constant: Option<&'static Value>,
+    allowed: Option<&'static [Value]>,
+    kind: Option<&'static Value>,
+    format: Option<&'static str>,
+    minimum: Option<f64>,
+    maximum: Option<f64>,
+    unit: Option<&'static str>,
+    law: bool,
+}
+
+impl Words {
+    fn of(schema: &'static Map<String, Value>) -> Self {
+        let mut words = Self::default();
+        for (key, word) in schema {
+            let array = || word.as_array().map(Vec::as_slice);
+            match key.as_str() {
+                "$ref" => words.reference = word.as_str(),
+                "anyOf" => words.any_of = array(),
+                "oneOf" => words.one_of = array(),
+                "const" => words.constant = Some(word),
+                "enum" => words.allowed = array(),
+                "type" => words.kind = Some(word),
+                "format" => words.format = word.as_str(),
+                "minimum" => words.minimum = word.as_f64(),
+                "maximum" => words.maximum = word.as_f64(),
+                "unit" => words.unit = word.as_str(),
+                "law" => words.law = word == &Value::Bool(true),
+                _ => {}
+            }
+        }
+        words
     }
 }
 
@@ -87,23 +123,24 @@ impl Walk {
 
     fn check(&mut self, schema: &'static Value, value: &Value, pointer: &mut String, limits: &Limits) {
         let Some(schema) = schema.as_object() else { return };
-        let limits = limits.narrowed(schema);
-        if let Some(reference) = schema.get("$ref").and_then(Value::as_str) {
+        let words = Words::of(schema);
+        let limits = limits.narrowed(&words);
+        if let Some(reference) = words.reference {
             self.check(self.resolve(reference), value, pointer, &limits);
             return;
         }
-        if let Some(options) = schema.get("anyOf").or_else(|| schema.get("oneOf")).and_then(Value::as_array) {
+        if let Some(options) = words.any_of.or(words.one_of) {
             self.check_options(options, value, pointer, &limits);
             return;
         }
-        if let Some(expected) = schema.get("const") {
+        if let Some(expected) = words.constant {
             if value != expected {
                 let message = format!("must be {expected}");
                 self.report(Fault::new(&*pointer, "constant", message).value(shown(value)));
             }
             return;
         }
-        if let Some(allowed) = schema.get("enum").and_then(Value::as_array) {
+        if let Some(allowed) = words.allowed {
             if !allowed.contains(value) {
                 let list: Vec<String> = allowed.iter().map(Value::to_string).collect();
                 let message = format!("must be one of {}", list.join(", "));
@@ -111,7 +148,7 @@ impl Walk {
             }
             return;
         }
-        if !self.check_type(schema, value, pointer) {
+        if !self.check_type(words.kind, value, pointer) {
             return;
         }
         match value {
@@ -123,8 +160,9 @@ impl Walk {
         }
     }
 
-    fn check_type(&mut self, schema: &Map<String, Value>, value: &Value, pointer: &str) -> bool {
-        let names: Vec<&str> = match schema.get("type") {
+    fn check_type(&mut self, kind: Option<&Value>, value: &Value, pointer: &str) -> bool {
+        let names: Vec<&str> = match kind {
+            Some(Value::String(name)) if is_of_type(value, name) => return true,
             Some(Value::String(name)) => vec![name],
             Some(Value::Array(names)) => names.iter().filter_map(Value::as_str).collect(),
             _ => return true,
@@ -185,28 +223,28 @@ impl Walk {
     ) {
         let bound = |key: &str| schema.get(key).and_then(Value::as_u64);
         let count = items.len() as u64;
-        if bound("minItems").is_some_and(|least| count < least)
-            || bound("maxItems").is_some_and(|most| count > most)
-        {
+        let (least, most) = (bound("minItems"), bound("maxItems"));
+        if least.is_some_and(|least| count < least) || most.is_some_and(|most| count > most) {
             let mut fault =
                 Fault::new(&*pointer, "count", format!("has {count} entries")).value(count).unit("entries");
-            if let Some(least) = bound("minItems") {
+            if let Some(least) = least {
                 fault = fault.min(least as f64);
             }
-            if let Some(most) = bound("maxItems") {
+            if let Some(most) = most {
                 fault = fault.max(most as f64);
             }
             self.report(fault);
-            if bound("maxItems").is_some_and(|most| count > most) {
+            if most.is_some_and(|most| count > most) {
                 return;
             }
         }
-        let prefix = schema.get("prefixItems").and_then(Value::as_array);
+        let (prefix, rest) = (schema.get("prefixItems").and_then(Value::as_array), schema.get("items"));
         for (i, item) in items.iter().enumerate() {
-            let own = prefix.and_then(|p| p.get(i)).or_else(|| schema.get("items"));
+            let own = prefix.and_then(|p| p.get(i)).or(rest);
             if let Some(own) = own {
                 let length = pointer.len();
-                pointer.push_str(&format!("/{i}"));
+                pointer.push('/');
+                pointer.push_str(&i.to_string());
                 let abscissa = limits.law && i == 0 && item.is_number();
                 let limits = if abscissa { &Limits::default() } else { limits };
                 self.check(own, item, pointer, limits);

@@ -1,7 +1,7 @@
 //! Passages: centre line, flow area, perimeter and hydraulic diameter along each chain of chambers and turns.
 
 use crate::build::{BuildError, PassagePart, PassageParts};
-use coolinggen_brep::{FaceId, Key, Model, Numbered};
+use coolinggen_brep::{FaceId, Key, Model, Numbered, SurfaceGeometry};
 use coolinggen_nurbs::{Interpolator, ParametricCurve, ParametricSurface};
 use glam::DVec3;
 use serde::Serialize;
@@ -139,10 +139,21 @@ impl Ring {
         let mut samples = Vec::new();
         for &id in faces {
             let surface = &model.face(id).surface;
+            let line = match surface {
+                SurfaceGeometry::BSpline(s) => Some(s.iso_v(v)),
+                _ => None,
+            };
             for span in surface.breaks_u().windows(2) {
                 for (x, weight) in GAUSS {
                     let length = span[1] - span[0];
-                    let (point, along, _) = surface.first_derivatives(span[0] + length * x, v);
+                    let u = span[0] + length * x;
+                    let [point, along] = match &line {
+                        Some(line) => line.first_derivatives(u),
+                        None => {
+                            let (point, along, _) = surface.first_derivatives(u, v);
+                            [point, along]
+                        }
+                    };
                     samples.push((point - origin, along * (weight * length)));
                 }
             }

@@ -54,7 +54,7 @@ impl Segment {
             Self::Side { from, to } => {
                 // At its end a side may meet a joint, where the derivative jumps: stay on this side of it.
                 let t = t.min(1.0 - 1e-13);
-                let [p, d, _] = outline.curve().derivatives(from + (to - from) * t);
+                let [p, d] = outline.curve().first_derivatives(from + (to - from) * t);
                 (p, d * (to - from))
             }
             Self::Arc { center, radius, angle, sweep } => {

@@ -1,6 +1,6 @@
 //! The map from the box in which a turn is drawn to space.
 
-use super::fibre::Fibres;
+use super::fibre::{FANS, Fibres, Form, MOST_UNLIKE, Straight};
 use super::{TurnRefusal, TurnSection};
 use crate::build::BuildError;
 use coolinggen_nurbs::{ArcLength, Interpolator, ParametricSurface, Surface};
@@ -35,17 +35,15 @@ pub(super) struct Mapped {
 
 impl TurnChart {
     /// The map over sections ordered away from the chambers, the first being where their straight parts end.
-    pub(super) fn new(sections: &[TurnSection<'_>]) -> Result<Result<Self, TurnRefusal>, BuildError> {
+    pub(super) fn new(
+        sections: &[TurnSection<'_>],
+        form: Form,
+    ) -> Result<Result<Self, TurnRefusal>, BuildError> {
         let first = &sections[0];
         let length = first.camber.length() * first.stream.scale(first.wall[0]);
         let mut fibres: Vec<Fibres<'_>> = sections.iter().map(|s| Fibres::new(s, length)).collect();
-        // One answer for all sections: the map is smooth from one to the next.
-        for end in [0, 1] {
-            if fibres.iter().any(|f| f.steep(end))
-                && let Err(refusal) = fibres.iter_mut().try_for_each(|f| f.fan_out(end))
-            {
-                return Ok(Err(refusal));
-            }
+        if let Err(refusal) = fan_out(&mut fibres, form) {
+            return Ok(Err(refusal));
         }
         let Some(extents) = fibres.iter().map(Fibres::extent).collect::<Option<Vec<_>>>() else {
             return Ok(Err(TurnRefusal::Unmapped));
@@ -120,6 +118,36 @@ impl TurnChart {
         }
         None
     }
+}
+
+/// Lets fibres fan out where they must, so that they reach all of the rings. One answer for all sections: the map is smooth
+/// from one to the next.
+fn fan_out(fibres: &mut [Fibres<'_>], form: Form) -> Result<(), TurnRefusal> {
+    if let Form::Fanned(straight) = form {
+        let fan = (straight, MOST_UNLIKE);
+        return [0, 1]
+            .into_iter()
+            .try_for_each(|end| fibres.iter_mut().try_for_each(|f| f.fan_out(end, fan)));
+    }
+    for end in [0, 1] {
+        if !fibres.iter().any(|f| f.must_fan(end)) {
+            continue;
+        }
+        let mut refusal = None;
+        let mut out = |fan: &&(Straight, f64)| {
+            let fanned = fibres.iter_mut().try_for_each(|f| f.fan_out(end, **fan));
+            let reached = fanned.is_ok() && fibres.iter().all(|f| f.reaches(end));
+            refusal = refusal.take().or(fanned.err());
+            reached
+        };
+        match FANS.iter().find(&mut out) {
+            // Towards both ends.
+            Some((Straight::None, _)) => return Ok(()),
+            Some(_) => {}
+            None => return Err(refusal.unwrap_or(TurnRefusal::Unmapped)),
+        }
+    }
+    Ok(())
 }
 
 /// Distance of the sections from the first one, mm, along the wall's mid line.

@@ -121,17 +121,17 @@ pub(super) fn coordinates(
 }
 
 /// As [`coordinates`], searched for from all over the chamber's half of the box.
-fn anywhere(
+pub(super) fn anywhere(
     chart: &TurnChart,
     section: &TurnSection<'_>,
     chamber: usize,
     at: (usize, f64),
     zeta: f64,
 ) -> Option<DVec3> {
-    const STEPS: u32 = 8;
+    const STEPS: u32 = 40;
     let far = chart.extent[chamber];
     let starts =
-        (0..=STEPS).flat_map(|i| [0.05, 0.5, 0.95].map(|eta| (f64::from(i) / f64::from(STEPS), eta)));
+        (0..=STEPS).flat_map(|i| [0.05, 0.35, 0.65, 0.95].map(|eta| (f64::from(i) / f64::from(STEPS), eta)));
     starts
         .filter_map(|(share, eta)| {
             coordinates(chart, section, chamber, at, DVec3::new(far * share, eta, zeta))

@@ -34,11 +34,13 @@ pub(super) struct Start {
 
 impl Fan {
     /// The fan from the fibre at `from` on, which goes on there as the sides' fibres do; none where a side runs the wrong
-    /// way.
-    pub(super) fn new(from: f64, sides: [Start; 2]) -> Option<Self> {
+    /// way, or hardly runs: where by the rates at which the fan begins one side would reach more than `unlike` times
+    /// farther than the other.
+    pub(super) fn new(from: f64, sides: [Start; 2], unlike: f64) -> Option<Self> {
         let lengths = sides.map(|s| (s.end - s.u) / s.rate);
         let reach = 0.5 * (lengths[0] + lengths[1]);
-        if !lengths.iter().all(|l| l * from > 0.0) {
+        let ratio = lengths[0] / lengths[1];
+        if !(from * reach >= 0.0 && (1.0 / unlike..=unlike).contains(&ratio)) {
             return None;
         }
         let ways = sides.map(|s| {

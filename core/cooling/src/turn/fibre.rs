@@ -22,8 +22,52 @@ pub(super) struct Fibres<'a> {
 
 /// Least sine of the angle at which fibres that keep the wall's angle may cross a side at its end: 25 degrees.
 const LEAST_SINE: f64 = 0.42;
-/// Share of the way to the nearer end of a side on which fibres keep the wall's angle in any case.
-const STRAIGHT: f64 = 0.3;
+/// Least pace of fibres along a side, relative to the mean on the way to its end: where they go slower they are about to
+/// cross each other, as on the inside of a camber line that bends more tightly than the passage is wide.
+const LEAST_PACE: f64 = 0.1;
+/// Where fibres begin to fan out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Straight {
+    /// Behind this share of the way to the nearer end of a side.
+    Share(f64),
+    /// At the wall, towards both ends: the camber line bends so tightly that no neighbour can keep the wall's angle.
+    None,
+}
+
+/// How the fibres of a turn run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Form {
+    /// At the wall's angle wherever they can.
+    Kept,
+    /// Fanning out towards both ends.
+    Fanned(Straight),
+}
+
+/// Forms of a turn, tried in turn until its faces are sound.
+pub(crate) const FORMS: [Form; 4] = [
+    Form::Kept,
+    Form::Fanned(Straight::None),
+    Form::Fanned(Straight::Share(0.3)),
+    Form::Fanned(Straight::Share(0.1)),
+];
+
+/// How many times farther one side may seem to reach than the other where fibres must fan out.
+pub(super) const MOST_UNLIKE: f64 = 8.0;
+
+/// Where fibres may begin to fan out, and how many times farther one side may seem to reach from there than the other;
+/// tried in turn.
+pub(super) const FANS: [(Straight, f64); 10] = [
+    (Straight::Share(0.3), 3.0),
+    (Straight::Share(0.2), 3.0),
+    (Straight::Share(0.1), 3.0),
+    (Straight::Share(0.05), 3.0),
+    (Straight::None, 3.0),
+    (Straight::Share(0.3), MOST_UNLIKE),
+    (Straight::Share(0.2), MOST_UNLIKE),
+    (Straight::Share(0.1), MOST_UNLIKE),
+    (Straight::Share(0.05), MOST_UNLIKE),
+    (Straight::None, MOST_UNLIKE),
+];
 /// How far a continued side may turn beside a fan, relative to what is left to turn of the nose between the sides.
 const SHARE_TURNED: f64 = 0.2;
 
@@ -45,8 +89,14 @@ impl<'a> Fibres<'a> {
         if end == 0 { [suction.low, pressure.high] } else { [suction.high, pressure.low] }
     }
 
+    /// Whether fibres at the wall's angle must fan out towards an end: they would graze a side there, pass it, or cross
+    /// each other on the way.
+    pub(super) fn must_fan(&self, end: usize) -> bool {
+        self.steep(end) || self.cross(end)
+    }
+
     /// Whether a side runs so steeply at an end that fibres at the wall's angle graze it, or pass it.
-    pub(super) fn steep(&self, end: usize) -> bool {
+    fn steep(&self, end: usize) -> bool {
         let ends = self.side_ends(end);
         let across = self.angle.sin().signum();
         (self.sides.iter().zip(ends).zip([1.0, -1.0])).any(|((side, u), sense)| {
@@ -57,20 +107,58 @@ impl<'a> Fibres<'a> {
         })
     }
 
-    /// Lets the fibres towards an end fan out.
-    pub(super) fn fan_out(&mut self, end: usize) -> Result<(), TurnRefusal> {
-        const STEP: f64 = 1e-3;
+    /// Whether fibres at the wall's angle cross each other on the way to an end, or nearly so.
+    fn cross(&self, end: usize) -> bool {
+        const STEPS: u32 = 40;
+        let (ends, far) = (self.side_ends(end), self.far(end));
+        let far = far[0].max(far[1]) * [-1.0, 1.0][end];
+        self.sides.iter().zip(ends).any(|(side, last)| {
+            let Some(start) = self.first(side, 0.0).and_then(|u| self.meet(side, 0.0, u)) else {
+                return true;
+            };
+            let step = (last - start) / f64::from(STEPS);
+            let mut u = start;
+            for i in 1..=STEPS {
+                let Some(next) = self.meet(side, far * f64::from(i) / f64::from(STEPS), u) else {
+                    return true;
+                };
+                if !((next - u) / step > LEAST_PACE) {
+                    return true;
+                }
+                if (next - start) / (last - start) > 1.0 {
+                    return false;
+                }
+                u = next;
+            }
+            false
+        })
+    }
+
+    /// About x of the sides' ends, by magnitude.
+    fn far(&self, end: usize) -> [f64; 2] {
         let ends = self.side_ends(end);
-        let slopes = [0, 1].map(|k| self.sides[k].at(ends[k]).1);
-        let turn = 0.5 * angle_between(slopes[0], slopes[1]).abs();
-        for (k, side) in self.sides.iter_mut().enumerate() {
-            let turned = &mut side.turned[usize::from(ends[k] == side.high)];
-            *turned = turned.min(SHARE_TURNED * turn);
+        [0, 1].map(|k| self.chord(self.sides[k].at(ends[k]).0) * [-1.0, 1.0][end])
+    }
+
+    /// Lets the fibres towards an end fan out; those towards the other end, too, if they do so at the wall.
+    pub(super) fn fan_out(
+        &mut self,
+        end: usize,
+        (straight, unlike): (Straight, f64),
+    ) -> Result<(), TurnRefusal> {
+        match straight {
+            Straight::Share(share) => self.fan_out_behind(end, share, unlike),
+            Straight::None => self.fan_out_at_wall(unlike),
         }
+    }
+
+    /// Lets the fibres towards an end fan out, behind a `share` of the way on which they keep the wall's angle.
+    fn fan_out_behind(&mut self, end: usize, share: f64, unlike: f64) -> Result<(), TurnRefusal> {
+        const STEP: f64 = 1e-3;
+        let ends = self.bend_less(end);
         // x of the sides' ends, as far as they tell: where a side is steep they need not.
-        let sign = [-1.0, 1.0][end];
-        let far = [0, 1].map(|k| self.chord(self.sides[k].at(ends[k]).0) * sign);
-        let from = STRAIGHT * far[0].min(far[1]) * sign;
+        let far = self.far(end);
+        let from = share * far[0].min(far[1]) * [-1.0, 1.0][end];
         let none = TurnRefusal::NoSide { x: from };
         let mut starts = [Start { u: 0.0, rate: 0.0, end: 0.0 }; 2];
         for (k, side) in self.sides.iter().enumerate() {
@@ -81,8 +169,43 @@ impl<'a> Fibres<'a> {
             let rate = (at(from + STEP, u)? - at(from - STEP, u)?) / (2.0 * STEP);
             starts[k] = Start { u, rate, end: ends[k] };
         }
-        self.fans[end] = Some(Fan::new(from, starts).ok_or(none)?);
+        self.fans[end] = Some(Fan::new(from, starts, unlike).ok_or(none)?);
         Ok(())
+    }
+
+    /// Lets the fibres fan out towards both ends from the wall itself.
+    fn fan_out_at_wall(&mut self, unlike: f64) -> Result<(), TurnRefusal> {
+        let none = TurnRefusal::NoSide { x: 0.0 };
+        let ends = [0, 1].map(|end| self.bend_less(end));
+        let reach = [0, 1].map(|end| {
+            let far = self.far(end);
+            0.5 * (far[0] + far[1]) * [-1.0, 1.0][end]
+        });
+        let mut starts = [[Start { u: 0.0, rate: 0.0, end: 0.0 }; 2]; 2];
+        for (k, side) in self.sides.iter().enumerate() {
+            let u = self.first(side, 0.0).and_then(|u| self.meet(side, 0.0, u)).ok_or(none.clone())?;
+            let rate = (ends[1][k] - ends[0][k]) / (reach[1] - reach[0]);
+            for end in [0, 1] {
+                starts[end][k] = Start { u, rate, end: ends[end][k] };
+            }
+        }
+        for end in [0, 1] {
+            self.fans[end] = Some(Fan::new(0.0, starts[end], unlike).ok_or(none.clone())?);
+        }
+        Ok(())
+    }
+
+    /// Ends of the sides towards an end, beyond which they turn no more than what is left to turn of the nose between
+    /// them bears.
+    fn bend_less(&mut self, end: usize) -> [f64; 2] {
+        let ends = self.side_ends(end);
+        let slopes = [0, 1].map(|k| self.sides[k].at(ends[k]).1);
+        let turn = 0.5 * angle_between(slopes[0], slopes[1]).abs();
+        for (k, side) in self.sides.iter_mut().enumerate() {
+            let turned = &mut side.turned[usize::from(ends[k] == side.high)];
+            *turned = turned.min(SHARE_TURNED * turn);
+        }
+        ends
     }
 
     /// About x of a point: its distance from the wall's mid line along the camber line's tangent.
@@ -93,29 +216,37 @@ impl<'a> Fibres<'a> {
         (point - center).perp_dot(direction) / (tangent.perp_dot(direction) * camber.length() * self.rate)
     }
 
+    /// Whether fibres reach all of the ring towards an end.
+    pub(super) fn reaches(&self, end: usize) -> bool {
+        self.ring_extent(end).is_some()
+    }
+
     /// Range of x that the rings take, their closures included.
     pub(super) fn extent(&self) -> Option<[f64; 2]> {
+        let [front, back] = [self.ring_extent(0)?, self.ring_extent(1)?];
+        Some([front[0].min(back[0]), front[1].max(back[1])])
+    }
+
+    /// Range of x that the ring towards an end takes, and x = 0.
+    fn ring_extent(&self, end: usize) -> Option<[f64; 2]> {
         const SAMPLES: u32 = 8;
-        let (mut low, mut high) = (0.0f64, 0.0f64);
-        for (end, ring) in self.section.rings.iter().enumerate() {
-            let samples = |k: usize| {
-                let at = move |i: u32| {
-                    ring.segments[k].evaluate(self.section.outline, f64::from(i) / f64::from(SAMPLES)).0
-                };
-                (0..=SAMPLES).map(at)
+        let ring = &self.section.rings[end];
+        let samples = |k: usize| {
+            let at = move |i: u32| {
+                ring.segments[k].evaluate(self.section.outline, f64::from(i) / f64::from(SAMPLES)).0
             };
-            if let Some(fan) = &self.fans[end] {
-                let closure = if end == 0 { 5..8 } else { 1..4 };
-                let inner: Vec<DVec2> = closure.flat_map(samples).collect();
-                let x = fan.beyond(&self.sides, &inner, self.section.wall[0])?;
-                (low, high) = (low.min(x), high.max(x));
-                continue;
-            }
-            let mut x = 0.0;
-            for point in (0..ring.segments.len()).flat_map(samples) {
-                x = self.x_of(point, x)?;
-                (low, high) = (low.min(x), high.max(x));
-            }
+            (0..=SAMPLES).map(at)
+        };
+        if let Some(fan) = &self.fans[end] {
+            let closure = if end == 0 { 5..8 } else { 1..4 };
+            let inner: Vec<DVec2> = closure.flat_map(samples).collect();
+            let x = fan.beyond(&self.sides, &inner, self.section.wall[0])?;
+            return Some([x.min(0.0), x.max(0.0)]);
+        }
+        let (mut low, mut high, mut x) = (0.0f64, 0.0f64, 0.0);
+        for point in (0..ring.segments.len()).flat_map(samples) {
+            x = self.x_of(point, x)?;
+            (low, high) = (low.min(x), high.max(x));
         }
         Some([low, high])
     }

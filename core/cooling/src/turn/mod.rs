@@ -21,6 +21,7 @@ mod side;
 mod surfaces;
 mod top;
 
+pub(crate) use fibre::{FORMS, Form};
 pub(crate) use refusal::TurnRefusal;
 pub(crate) use shape::{TurnRequest, TurnShape};
 pub(crate) use surfaces::{EndRow, loft};

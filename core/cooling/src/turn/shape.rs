@@ -1,9 +1,9 @@
 //! The shape of a turn in its box: a ring for every angle.
 
 use super::chart::TurnChart;
-use super::closure::{Place, Strip, coordinates};
+use super::closure::{Place, Strip, anywhere, coordinates};
 use super::top::{Heights, Top};
-use super::{TurnRefusal, TurnSection};
+use super::{Form, TurnRefusal, TurnSection};
 use crate::build::BuildError;
 use crate::section::SEGMENTS;
 use glam::DVec3;
@@ -22,6 +22,8 @@ pub(crate) struct TurnRequest<'a> {
     pub(crate) radius: f64,
     /// Exponent of the outer side.
     pub(crate) exponent: f64,
+    /// How the fibres across it run.
+    pub(crate) form: Form,
     /// Parameters of the eight segments at which rings are asked for, from 0 to 1.
     pub(crate) nodes: [Vec<f64>; SEGMENTS],
 }
@@ -58,7 +60,7 @@ pub(crate) struct TurnShape {
 impl TurnShape {
     pub(crate) fn new(request: &TurnRequest<'_>) -> Result<Result<Self, TurnRefusal>, BuildError> {
         let sections = request.sections;
-        let chart = match TurnChart::new(sections)? {
+        let chart = match TurnChart::new(sections, request.form)? {
             Ok(chart) => chart,
             Err(refusal) => return Ok(Err(refusal)),
         };
@@ -178,7 +180,8 @@ fn side_fractions(
     let mut near = start;
     let mut xs = Vec::with_capacity(stations.len());
     for &t in stations {
-        near = coordinates(chart, section, chamber, (k, t), near)?;
+        near = coordinates(chart, section, chamber, (k, t), near)
+            .or_else(|| anywhere(chart, section, chamber, (k, t), 0.0).filter(|_| xs.is_empty()))?;
         xs.push(near.x);
     }
     let (from, to) = (xs[0], xs[xs.len() - 1]);

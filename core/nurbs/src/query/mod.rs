@@ -9,7 +9,7 @@ mod project_surface;
 mod projector;
 
 pub use length::{ArcLength, curvature, signed_curvature};
-pub use line::{LineHit, line_meets_surface};
+pub use line::{LineHit, line_meets, line_meets_surface};
 pub use march::{
     CERTIFIED, CurveHit, SurfaceHit, march_to_curve, march_to_surface, ray_meets_curve, ray_meets_surface,
 };

@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use coolinggen_brep::Model;
+use coolinggen_exporters::IgesForm;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -13,6 +14,11 @@ pub(crate) enum Format {
     Step,
     /// OpenCASCADE's own format, exact and fastest to read
     Brep,
+    /// IGES 5.3, solids whose faces share edges, with the table of panels for CENTAUR
+    Iges,
+    /// IGES 5.3, a trimmed surface a face, with the same table
+    #[value(name = "iges_surfaces")]
+    IgesSurfaces,
     /// Binary glTF
     Glb,
     /// Wavefront OBJ with its materials
@@ -28,17 +34,34 @@ pub(crate) enum Format {
 }
 
 impl Format {
+    /// Names of all formats, as the command line and the protocol have them.
+    pub(crate) fn names() -> Vec<String> {
+        let names = Self::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        names.map(|v| v.get_name().to_owned()).collect()
+    }
+
     /// What the names of its files end with.
     pub(super) fn extension(self) -> &'static str {
         match self {
             Self::Step => "step",
             Self::Brep => "brep",
+            Self::Iges => "igs",
+            Self::IgesSurfaces => "surfaces.igs",
             Self::Glb => "glb",
             Self::Obj => "obj",
             Self::Stl => "stl",
             Self::Nastran => "nas",
             Self::Gmsh => "gmsh.py",
             Self::Openfoam => "openfoam",
+        }
+    }
+
+    /// What an IGES file of this format is made of.
+    pub(super) fn iges_form(self) -> Option<IgesForm> {
+        match self {
+            Self::Iges => Some(IgesForm::Solids),
+            Self::IgesSurfaces => Some(IgesForm::TrimmedSurfaces),
+            _ => None,
         }
     }
 

@@ -7,8 +7,8 @@ use coolinggen_cooling::Generated;
 use coolinggen_cooling::report::FaceReport;
 use coolinggen_exporters as exporters;
 use exporters::{
-    CaseFile, CaseOptions, ExportError, FacePlace, KeptMeshes, Listed, StepOptions, Tessellation,
-    TessellationOptions, manifest, write_atomically,
+    CaseFile, CaseOptions, ExportError, FacePlace, IgesOptions, KeptMeshes, Listed, StepOptions,
+    Tessellation, TessellationOptions, manifest, write_atomically,
 };
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
@@ -59,7 +59,8 @@ impl Export<'_> {
     /// Steps that [`Export::write`] tells at most.
     pub(crate) fn steps(&self) -> usize {
         let (whole, parts): (Vec<Format>, Vec<Format>) = self.formats.iter().partition(|f| f.is_whole());
-        parts.len() * self.solids.len() + 2 * whole.len() + usize::from(self.needs_mesh()) + 1
+        let files = parts.len() + usize::from(parts.iter().any(|f| f.iges_form().is_some()));
+        files * self.solids.len() + 2 * whole.len() + usize::from(self.needs_mesh()) + 1
     }
 
     fn needs_mesh(&self) -> bool {
@@ -147,6 +148,15 @@ impl Writing<'_> {
                 exporters::write_step(model, names, &options, out)
             }
             Format::Brep => exporters::write_brep(model, names, out),
+            Format::Iges | Format::IgesSurfaces => {
+                let options = IgesOptions {
+                    name: stem.clone(),
+                    file_name: file.clone(),
+                    form: format.iges_form().unwrap_or_default(),
+                    ..IgesOptions::default()
+                };
+                exporters::write_iges(model, names, &this.generated.grouping, &options, out)
+            }
             Format::Glb => exporters::write_glb(model, names, &this.mesh, out),
             Format::Obj => exporters::write_obj(model, names, &this.mesh, &library, out),
             Format::Stl => exporters::write_stl(model, names, &this.mesh, out),
@@ -156,8 +166,21 @@ impl Writing<'_> {
             // Not of parts: see `whole`.
             Format::Gmsh | Format::Openfoam => Ok(()),
         })?;
+        if format.iges_form().is_some() {
+            self.panels(&stem, names)?;
+        }
         self.listed.push(Listed { file, solids: names.iter().map(|n| (*n).to_owned()).collect() });
         Ok(())
+    }
+
+    /// The table of panels beside the IGES files of some solids, once.
+    fn panels(&mut self, stem: &str, names: &[&str]) -> Result<(), ExportFailure> {
+        let table = format!("{stem}.centaur.csv");
+        if self.written.contains(&self.export.folder.join(&table)) {
+            return Ok(());
+        }
+        let Generated { blade, grouping, .. } = self.generated;
+        self.file(&table, |_, out| exporters::write_panels(&blade.model, names, grouping, out))
     }
 
     /// What a format writes of all solids at once.

@@ -307,7 +307,7 @@ fn initialize(_: &Context<'_>, params: &Initialize) -> Result<Value, RpcError> {
         "schema_sha256": hexadecimal(&Sha256::digest(design_schema().to_string().as_bytes())),
         "units": { "length": "mm", "angle": "deg" },
         "methods": METHODS.iter().map(|m| m.name).chain(["shutdown"]).collect::<Vec<_>>(),
-        "formats": ["step", "glb", "obj", "stl"],
+        "formats": Format::names(),
     }))
 }
 

@@ -50,13 +50,28 @@ struct TrailingEdge {
     tail: Curve<DVec3>,
 }
 
+/// Widths of the trailing edge that a chamber must end ahead of the middle between the sides' ends for that to give the
+/// slots their direction.
+const LEAST_AHEAD: f64 = 2.0;
+
 impl TrailingEdge {
     fn new(sections: &[Section], tails: &[DVec3]) -> Result<Self, BuildError> {
-        let edge = |s: &Section| {
+        // Ends of the sides, where the trailing edge begins, in the chart.
+        let ends = |s: &Section| {
             let (start, end) = s.outline.domain();
-            let curve = s.outline.curve();
-            s.stream.to_space(0.5 * (curve.point(start) + curve.point(end)))
+            [start, end].map(|u| s.outline.curve().point(u))
         };
+        let between = |s: &Section| {
+            let [a, b] = ends(s);
+            s.stream.to_space(0.5 * (a + b))
+        };
+        // A chamber may end about the centre of a round trailing edge: there the slots aim at the end of the camber line.
+        let near = |(s, tail): (&Section, &DVec3)| {
+            let [a, b] = ends(s).map(|q| s.stream.to_space(q));
+            between(s).distance(*tail) < LEAST_AHEAD * a.distance(b)
+        };
+        let blunt = sections.iter().zip(tails).any(near);
+        let edge = |s: &Section| if blunt { s.stream.to_space(s.camber.at(1.0).center) } else { between(s) };
         Ok(Self {
             edge: over_span(sections, |i| edge(&sections[i]))?,
             tail: over_span(sections, |i| tails[i])?,
