@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import json
 import time
 from pathlib import Path
 
 import pytest
 from OCP.BRep import BRep_Builder, BRep_Tool
+from OCP.BRepAdaptor import BRepAdaptor_Surface
+from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepTools import BRepTools
+from OCP.GeomAbs import GeomAbs_SurfaceType
 from OCP.GProp import GProp_GProps
 from OCP.STEPControl import STEPControl_Reader
-from OCP.TopoDS import TopoDS_Shape
+from OCP.TopoDS import TopoDS, TopoDS_Shape
 
+import cli
 import close
+import edits
 import measure
 import topology
 from occ import sub_shapes
@@ -98,3 +104,24 @@ def test_read_faster_than_step(model):
 
     brep = min(seconds(lambda: read(model.file(part, "brep"))) for _ in range(3))
     assert seconds(step) >= FASTER * brep
+
+
+@pytest.mark.parametrize(
+    "ends", [[249.4, 253, 301.5, 318], [250.5, 250.5, 310, 310]], ids=["cone", "cylinder"]
+)
+def test_straight_hubs_are_cones_and_cylinders(ends, tmp_path):
+    """No sample has them; OpenCASCADE measures cones along their sides, STEP along the axis."""
+    design = json.loads((cli.SAMPLES / "rotor.json").read_text(encoding="utf-8"))
+    hub, shroud = ([[-15, first], [75, last]] for first, last in (ends[:2], ends[2:]))
+    path = edits.write(
+        tmp_path / "design.json", edits.edited(design, {"/space/hub": hub, "/space/shroud": shroud})
+    )
+    done = cli.run("generate", path, "--out", tmp_path, "--format", "brep")
+    assert done.returncode == cli.DONE, done.stderr
+    model = cli.Model(path, tmp_path)
+    shape = read(model.file("assembly", "brep"))
+    assert BRepCheck_Analyzer(shape).IsValid()
+    kinds = {BRepAdaptor_Surface(TopoDS.Face(face)).GetType() for face in sub_shapes(shape, topology.FACE)}
+    assert kinds & {GeomAbs_SurfaceType.GeomAbs_Cone, GeomAbs_SurfaceType.GeomAbs_Cylinder}
+    volumes = [measure.volume_adaptive(solid) for solid in sub_shapes(shape, topology.SOLID)]
+    close.assert_volume(sum(volumes), model.report["blank"]["volume_mm3"], "sum of solids")

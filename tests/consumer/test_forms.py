@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
 
 import pytest
@@ -12,6 +13,7 @@ import cli
 sys.path.insert(0, str(cli.REPOSITORY / "freecad-addon" / "freecad" / "coolinggen"))
 
 from client import forms
+from client.formats import FORMATS
 
 #: What has no widget: points by their number or place, nets and knots.
 RAW = {"leading_edge", "trailing_edge", "knots_u", "knots_v", "points", "weights"}
@@ -43,6 +45,19 @@ def test_samples_fit_the_form(form, sample):
 def test_what_an_editor_begins_with_fits_the_form(form):
     for field in _all_fields(form):
         _fits(field.shape, forms.blank(field.shape, field.default), field.key)
+
+
+def test_export_dialogs_offer_every_format():
+    asked = {"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"protocol_version": 1}}
+    done = subprocess.run(
+        [cli.BINARY, "serve"],
+        input=json.dumps(asked) + "\n",
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert list(FORMATS) == json.loads(done.stdout.splitlines()[0])["result"]["formats"]
 
 
 def test_titles():

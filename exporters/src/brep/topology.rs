@@ -12,6 +12,14 @@ use std::io::{self, Write};
 /// Tolerance of vertices, edges and faces, mm: OpenCASCADE's least. Edges of built designs lie within a third of it.
 const TOLERANCE: f64 = 1e-7;
 
+/// STEP measures cones along their axis, OpenCASCADE along their sides.
+fn in_own_parameters(curve: Curve<DVec2>, form: &SurfaceForm<'_>) -> Curve<DVec2> {
+    match form.form {
+        Form::Cone { angle, .. } => curve.map(|p| DVec2::new(p.x, p.y / angle.cos())),
+        _ => curve,
+    }
+}
+
 /// Distance in a surface's parameters between the end of one edge and the begin of the next that is a pole's, not a
 /// rounding. Parameters are millimetres, radians or fractions.
 const PARAMETER_GAP: f64 = 1e-6;
@@ -137,6 +145,7 @@ impl<'a> Shapes<'a> {
             for coedge in &bound.coedges {
                 let (record, index) = self.edge(coedge.edge);
                 if let Some(own) = pcurve(model, face, coedge, &form) {
+                    let own = in_own_parameters(own, &form);
                     let (start, end) = own.domain();
                     let [begin, end] = if coedge.forward { [start, end] } else { [end, start] };
                     ways.push([own.point(begin), own.point(end)]);
