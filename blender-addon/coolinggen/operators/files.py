@@ -7,15 +7,11 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from .. import beside, blades, building, live, service
+from ..client.formats import FORMATS
 from ..client.latest import Done
 from .following import ended
 
-FORMATS = [
-    ("step", "STEP", "Exact solids for CAD"),
-    ("glb", "glTF", "Meshes with materials"),
-    ("obj", "OBJ", "Meshes with groups"),
-    ("stl", "STL", "Meshes with named regions"),
-]
+ITEMS = [(name, *words) for name, words in FORMATS.items()]
 
 
 class Export(bpy.types.Operator):
@@ -26,7 +22,7 @@ class Export(bpy.types.Operator):
 
     directory: StringProperty(name="Folder", subtype="DIR_PATH")
     filter_folder: BoolProperty(default=True, options={"HIDDEN"})
-    formats: EnumProperty(name="Formats", items=FORMATS, options={"ENUM_FLAG"}, default={"step"})
+    formats: EnumProperty(name="Formats", items=ITEMS, options={"ENUM_FLAG"}, default={"step"})
 
     @classmethod
     def poll(cls, context):

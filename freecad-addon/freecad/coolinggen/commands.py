@@ -151,7 +151,7 @@ COMMANDS = {
         lambda: actions.regions(_chosen()), _with_blade,
     ),
     "Export": Command(
-        "Export...", "Write the blade's solids as STEP, glTF, OBJ or STL, with all names", "export",
+        "Export...", "Write the blade's solids for CAD, meshers and solvers, with all names", "export",
         lambda: actions.export(_chosen()), _with_blade,
     ),
 }  # fmt: skip

@@ -1,7 +1,7 @@
 """From the sidecar's files to shapes of FreeCAD whose faces have names and colours.
 
-Reading a STEP file takes OpenCASCADE seconds; in FreeCAD's window it is done by a FreeCAD without one, which
-hands the shapes over as BREP, triangles for the view included.
+The files are BREP, shapes as FreeCAD has them. The triangles for the view still take seconds; in FreeCAD's
+window they are made by a FreeCAD without one, which hands the shapes over with them.
 """
 
 import contextlib
@@ -38,11 +38,11 @@ class Solid:
     colors: list[tuple[float, float, float]]
 
 
-def read(step: Path, meshes: list[Mesh]) -> list[Solid]:
-    """The solids of a STEP file, which are in the order of their meshes."""
-    shapes = Part.read(str(step)).Solids
+def read(brep: Path, meshes: list[Mesh]) -> list[Solid]:
+    """The solids of a BREP file, which are in the order of their meshes."""
+    shapes = Part.read(str(brep)).Solids
     if len(shapes) != len(meshes):
-        raise SidecarError(f"{step.name} came in with {len(shapes)} solids, not {len(meshes)}")
+        raise SidecarError(f"{brep.name} came in with {len(shapes)} solids, not {len(meshes)}")
     return [_named(shape, mesh) for shape, mesh in zip(shapes, meshes, strict=True)]
 
 
@@ -61,7 +61,7 @@ def _named(shape: Part.Shape, mesh: Mesh) -> Solid:
     return Solid(mesh.name, shape, [f.name for f in mesh.faces], [f.color for f in mesh.faces])
 
 
-def read_beside(step: Path, reply: dict, watch: Watch) -> list[Solid]:
+def read_beside(brep: Path, reply: dict, watch: Watch) -> list[Solid]:
     """As ``read``, in another process; ``reply`` is that of ``model/tessellate``.
 
     Without FreeCAD's command it is done here.
@@ -69,8 +69,8 @@ def read_beside(step: Path, reply: dict, watch: Watch) -> list[Solid]:
     command = _freecad_command()
     meshes = [decode(solid) for solid in reply["solids"]]
     if command is None:
-        return read(step, meshes)
-    folder = step.parent
+        return read(brep, meshes)
+    folder = brep.parent
     (folder / "meshes.json").write_text(json.dumps(reply), encoding="utf-8")
     package = Path(__file__).parents[1]
     script = folder / "coolinggen_reads.py"
@@ -78,7 +78,7 @@ def read_beside(step: Path, reply: dict, watch: Watch) -> list[Solid]:
         "import freecad\n"
         f"freecad.__path__.append({str(package)!r})\n"
         "from freecad.coolinggen.convert import serve\n"
-        f"serve({str(folder)!r}, {step.name!r})\n",
+        f"serve({str(folder)!r}, {brep.name!r})\n",
         encoding="utf-8",
     )
     _run([command, str(script)], folder, watch)
@@ -95,12 +95,12 @@ def read_beside(step: Path, reply: dict, watch: Watch) -> list[Solid]:
     return solids
 
 
-def serve(folder: str, step: str) -> None:
+def serve(folder: str, brep: str) -> None:
     """What the other process does; it ends here."""
     place = Path(folder)
     try:
         meshes = json.loads((place / "meshes.json").read_text(encoding="utf-8"))["solids"]
-        for k, solid in enumerate(read(place / step, [decode(mesh) for mesh in meshes])):
+        for k, solid in enumerate(read(place / brep, [decode(mesh) for mesh in meshes])):
             _triangles(solid.shape)
             solid.shape.exportBrep(str(place / f"{k}.brep"))
         told = ""

@@ -7,8 +7,7 @@ import FreeCADGui as Gui
 from PySide import QtGui
 
 from . import blade, job, waiting
-
-FORMATS = {"step": "STEP", "glb": "glTF (GLB)", "obj": "OBJ", "stl": "STL"}
+from .client.formats import FORMATS
 
 
 class Dialog(QtGui.QDialog):
@@ -20,9 +19,10 @@ class Dialog(QtGui.QDialog):
         self.setWindowTitle(f"Export {obj.Label}")
         form = QtGui.QFormLayout(self)
         self.formats = {}
-        for name, title in FORMATS.items():
+        for name, (title, purpose) in FORMATS.items():
             box = QtGui.QCheckBox(title)
             box.setObjectName(f"format:{name}")
+            box.setToolTip(purpose)
             box.setChecked(name == "step")
             form.addRow("Formats" if not self.formats else "", box)
             self.formats[name] = box

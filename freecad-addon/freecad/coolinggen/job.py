@@ -67,17 +67,17 @@ def build(request: Request, watch: Watch, *, beside: bool) -> Built:
             "model/export",
             model=request.model,
             folder=folder,
-            formats=["step"],
+            formats=["brep"],
             solids=["assembly"],
             progress=_part(watch, 0.4, 0.5),
             cancelled=watch.stopped,
         )
         watch.progress("read", 0.5)
-        step = Path(files["files"][0]["path"])
+        brep = Path(files["files"][0]["path"])
         if beside:
-            solids = convert.read_beside(step, reply, watch)
+            solids = convert.read_beside(brep, reply, watch)
         else:
-            solids = convert.read(step, [decode(solid) for solid in reply["solids"]])
+            solids = convert.read(brep, [decode(solid) for solid in reply["solids"]])
     watch.check()
     return Built(report, solids)
 
