@@ -20,6 +20,10 @@ use glam::{DVec2, DVec3};
 const LAST: f64 = 1e-13;
 const BEFORE: f64 = 1e-11;
 
+/// Largest coefficient of the cube that a short piece of a loop may have for four points: the terms of degree 8 that they
+/// do not see are `3 BEND^3 / 44,100` of the cell.
+const BEND: f64 = 1e-3;
+
 /// Sums over the inside of `lp`, negative if it runs clockwise; none where cells would be many or their grids not
 /// fine enough.
 pub(super) fn integrate<V: Frame>(surface: &Surface<V>, lp: &Loop) -> Option<Sums> {
@@ -188,8 +192,9 @@ impl<'s, V: Frame> Region<'s, V> {
         }
         let into = &mut moments[column * rows + row];
         let extent = (to - from).abs().max_element();
-        // A cubic piece makes degree 3 K + 2; little of it shows where the piece is short.
-        let n = if extent < 0.15 {
+        // A cubic piece makes degree 3 K + 2; little of it shows where the piece is short and bends little.
+        let bend = cubic.0[3].abs().max_element();
+        let n = if extent < 0.15 && bend < BEND {
             if K < 12 { 4 } else { 8 }
         } else if extent < 0.4 {
             if K < 12 { 8 } else { 12 }
