@@ -137,7 +137,8 @@ def test_a_program_that_is_no_sidecar_is_told(rotor, tmp_path):
     service.stop()
     old = tmp_path / "coolinggen"
     reply = {"jsonrpc": "2.0", "id": 1, "error": {"code": -32602, "message": "speaks protocol 0", "data": []}}
-    old.write_text(f"#!{sys.executable}\nprint('''{json.dumps(reply)}''', flush=True)\ninput()\n")
+    # It waits to be asked: an answer that comes before its question belongs to none.
+    old.write_text(f"#!{sys.executable}\ninput()\nprint('''{json.dumps(reply)}''', flush=True)\ninput()\n")
     old.chmod(old.stat().st_mode | stat.S_IXUSR)
     bpy.context.preferences.addons[MODULE].preferences.binary = str(old)
     with pytest.raises(RuntimeError, match="speaks protocol 0"):
