@@ -20,10 +20,12 @@ def install(home: Path, binary: Path) -> None:
 
 
 def play(
-    folder: Path, home: Path, scenarios: Path, wanted: str = "", patience_s: float = 60, limit_s: float = 400
+    folder: Path, home: Path, scenarios: list[Path], wanted: str = "", patience_s: float = 60, limit_s: float = 400
 ) -> dict:
-    """Plays scenarios of a file in FreeCAD's window; pictures come into ``folder``, the result has for
+    """Plays scenarios of these files in FreeCAD's window; pictures come into ``folder``, the result has for
     each scenario ``error``, ``notes`` and ``seconds``.
+
+    In ``folder`` FreeCAD has two more, where the system lets a user mount them: ``read-only`` and ``full``.
     """
     folder.mkdir(parents=True, exist_ok=True)
     environment = {
@@ -33,7 +35,7 @@ def play(
         "FREECAD_USER_HOME": str(home),
         "QTWEBENGINE_DISABLE_SANDBOX": "1",
         "COOLINGGEN_GUI_FOLDER": str(folder),
-        "COOLINGGEN_GUI_SCENARIOS": str(scenarios),
+        "COOLINGGEN_GUI_SCENARIOS": os.pathsep.join(map(str, scenarios)),
         "COOLINGGEN_GUI_WANTED": wanted,
         "COOLINGGEN_GUI_PATIENCE": str(patience_s),
     }
@@ -51,7 +53,7 @@ def play(
             with os.fdopen(number) as told:
                 display = told.readline().strip()
             subprocess.run(
-                ["freecad", HERE / "driver.py"],
+                [*_refusing(folder), "freecad", HERE / "driver.py"],
                 cwd=place,
                 env={**environment, "DISPLAY": f":{display}"},
                 stdout=log,
@@ -69,3 +71,16 @@ def play(
             f"FreeCAD ended early:\n{(folder / 'log.txt').read_text(errors='replace')[-3000:]}"
         )
     return json.loads(told.read_text(encoding="utf-8"))
+
+
+def _refusing(folder: Path) -> list[str | Path]:
+    """What makes the folders that refuse files for a command behind it; nothing if that cannot be."""
+    for name in ("read-only", "full"):
+        (folder / name).mkdir(exist_ok=True)
+    mount = (
+        'mount -t tmpfs -o ro,size=16k tmpfs "$0/read-only" && mount -t tmpfs -o size=16k tmpfs "$0/full" '
+        '&& exec "$@"'
+    )
+    command = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", mount, folder]
+    works = subprocess.run([*command, "true"], check=False, capture_output=True).returncode == 0
+    return command if works else []

@@ -16,7 +16,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder)
         install(place / "home", cli.BINARY)
-        told = play(place / "pictures", place / "home", HERE / "tutorial.py")
+        told = play(place / "pictures", place / "home", [HERE / "tutorial.py"])
         PICTURES.mkdir(exist_ok=True)
         for picture in sorted((place / "pictures").glob("*.png")):
             shutil.copy(picture, PICTURES / picture.name)

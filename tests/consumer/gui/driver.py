@@ -205,10 +205,12 @@ def begin() -> None:
         for sub in window.findChildren(QtGui.QMdiSubWindow):
             if sub.windowTitle() == title:
                 sub.close()
-    sys.path.insert(0, str(Path(os.environ["COOLINGGEN_GUI_SCENARIOS"]).parent))
-    module = importlib.import_module(Path(os.environ["COOLINGGEN_GUI_SCENARIOS"]).stem)
+    known = {}
+    for file in map(Path, os.environ["COOLINGGEN_GUI_SCENARIOS"].split(os.pathsep)):
+        sys.path.insert(0, str(file.parent))
+        known |= importlib.import_module(file.stem).SCENARIOS
     wanted = os.environ.get("COOLINGGEN_GUI_WANTED", "").split(",")
-    chosen = {n: s for n, s in module.SCENARIOS.items() if wanted == [""] or n in wanted}
+    chosen = {n: s for n, s in known.items() if wanted == [""] or n in wanted}
     begin.player = Player(chosen)
 
 
