@@ -49,11 +49,16 @@ def progress(key: Hashable) -> Progress | None:
     return _progress.get(key)
 
 
-def turn() -> None:
-    """Hears the news and does one step; for the window's thread, at short intervals."""
-    _hear()
-    if _steps:
-        _steps.popleft()[1]()
+def turn() -> bool:
+    """Hears the news and does one step, and says whether there was any.
+
+    For the window's thread, at short intervals.
+    """
+    heard = _hear()
+    if not _steps:
+        return heard
+    _steps.popleft()[1]()
+    return True
 
 
 def cancel() -> None:
@@ -73,15 +78,18 @@ def stop() -> None:
     _workers.clear()
 
 
-def _hear() -> None:
+def _hear() -> bool:
+    heard = False
     for key, worker in _workers.items():
         for news in worker.news():
             number, ended = _awaited.get(key, (None, None))
             if news.tag != number:
                 continue
+            heard = True
             if isinstance(news, Progress):
                 _progress[key] = news
             else:
                 del _awaited[key]
                 _progress.pop(key, None)
                 _steps.extend((key, step) for step in ended(news))
+    return heard

@@ -123,14 +123,15 @@ def _key(uid: int) -> tuple:
 def _tick() -> float | None:
     """What the window's thread does at each interval, short enough not to be felt."""
     now = time.monotonic()
-    for uid in [uid for uid, when in _due.items() if when <= now]:
+    due = [uid for uid, when in _due.items() if when <= now]
+    for uid in due:
         collection = by_uid(uid)
         if collection is None:
             del _due[uid]
         else:
             _start(collection)
-    beside.turn()
-    _redraw()
+    if beside.turn() or due:
+        _redraw()
     if not any_busy():
         return None
     _listen()
@@ -188,7 +189,9 @@ def _listen() -> None:
 
 
 def _redraw() -> None:
+    """Has the panel say how far things are; what is drawn of the blade itself Blender sees to."""
     for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+            for region in area.regions:
+                if area.type == "VIEW_3D" and region.type == "UI":
+                    region.tag_redraw()

@@ -3,6 +3,7 @@
 The arrays are made beside the window, by any thread; only :func:`fill` touches Blender's data.
 """
 
+import gc
 import json
 from dataclasses import dataclass
 
@@ -105,10 +106,18 @@ def _sharp(triangles: np.ndarray, normals: np.ndarray) -> np.ndarray:
 
 
 def _rows(numbers: np.ndarray) -> list:
-    """As lists, made in pieces: a thread that makes one long list keeps the window waiting."""
-    rows = []
-    for k in range(0, len(numbers), 4096):
-        rows += numbers[k : k + 4096].tolist()
+    """As lists, made in pieces: a thread that makes one long list keeps the window waiting.
+
+    So does the garbage collector: for so many new lists it looks through everything that Python has.
+    """
+    rows, collects = [], gc.isenabled()
+    gc.disable()
+    try:
+        for k in range(0, len(numbers), 4096):
+            rows += numbers[k : k + 4096].tolist()
+    finally:
+        if collects:
+            gc.enable()
     return rows
 
 

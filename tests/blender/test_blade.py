@@ -28,21 +28,33 @@ def report(collection) -> dict:
     return json.loads(collection.coolinggen.report)
 
 
-@pytest.mark.parametrize("template", ["rotor", "c3x", "rotor-serpentine", "propeller"])
-def test_meshes(template):
-    bpy.ops.coolinggen.new(template=template)
-    collection = bpy.context.scene.collection.children[-1]
+def sound(collection, metres: float) -> None:
+    """Whether a blade's meshes are what its report says, in a scene whose unit is so many metres."""
     told = report(collection)["solids"]
     assert set(solids(collection)) == set(told)
     for name, found in solids(collection).items():
         assert not found.data.validate(), name
         assert measure.closed(found.data), name
         # Chords lie within the tolerance of the surface.
-        allowed = 1.01 * collection.coolinggen.chord_mm * told[name]["area_mm2"]
-        assert abs(measure.volume(found.data) * 1e9 - told[name]["volume_mm3"]) < allowed, name
+        chord = collection.coolinggen.chord_mm
+        millimetres = 1e3 * metres
+        volume = measure.volume(found.data) * millimetres**3
+        assert abs(volume - told[name]["volume_mm3"]) < 1.01 * chord * told[name]["area_mm2"], name
+        low, high = (np.array(told[name]["bounding_box_mm"][end]) for end in ("min", "max"))
+        points = measure.triangles(found.data)[0] * millimetres
+        # Single precision keeps seven digits.
+        reach = 1.01 * chord + 1e-6 * np.abs([low, high]).max()
+        assert np.abs(points.min(axis=0) - low).max() < reach, name
+        assert np.abs(points.max(axis=0) - high).max() < reach, name
         given, flat = measure.normals(found.data)
         # The surface's normals, outward: nowhere far from those of the triangles.
         assert (np.einsum("ijk,ijk->ij", given, flat) > 0.5).mean() > 0.999, name
+
+
+@pytest.mark.parametrize("template", ["rotor", "c3x", "rotor-serpentine", "propeller"])
+def test_meshes(template):
+    bpy.ops.coolinggen.new(template=template)
+    sound(bpy.context.scene.collection.children[-1], 1.0)
 
 
 def test_normals_survive_what_cycles_does(rotor):
@@ -64,12 +76,16 @@ def test_normals_survive_what_cycles_does(rotor):
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.001, 0.01])
-def test_size_at_any_scale_of_the_scene(scale):
+@pytest.mark.parametrize("template", ["c3x", "rotor"])
+def test_meshes_at_any_scale_of_the_scene(template, scale):
     bpy.context.scene.unit_settings.scale_length = scale
-    bpy.ops.coolinggen.new(template="c3x")
-    metal = solids(bpy.data.collections["c3x"])["metal"]
-    # The vane is 76.2 mm high.
-    assert metal.dimensions.z * scale == pytest.approx(0.0762, rel=1e-5)
+    bpy.ops.coolinggen.new(template=template)
+    collection = bpy.data.collections[template]
+    sound(collection, scale)
+    if template == "c3x":
+        # The vane is 76.2 mm high.
+        metal = solids(collection)["metal"]
+        assert metal.dimensions.z * scale == pytest.approx(0.0762, rel=1e-5)
 
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda path: path.stem)
