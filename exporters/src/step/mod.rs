@@ -65,8 +65,8 @@ impl Default for StepOptions {
 }
 
 /// Writes the solids of these names (all for an empty list) as one file in millimetres: a product a solid,
-/// each with its own copies of shared faces; face names, colours, and layers by [`Style::layer`]. A solid with
-/// voids becomes a `BREP_WITH_VOIDS`.
+/// each with its own copies of shared faces; face names, colours, and layers by [`coolinggen_brep::Style::layer`].
+/// A solid with voids becomes a `BREP_WITH_VOIDS`.
 ///
 /// # Errors
 /// [`ExportError::UnknownSolid`], [`ExportError::NoSolid`], [`ExportError::BadTopology`],
