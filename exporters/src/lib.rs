@@ -3,6 +3,7 @@
 //! Output depends on the model and the options alone: no clock, no thread count, no hash order. Every writer takes
 //! the names of the solids to write, all for an empty list.
 
+mod boundary;
 mod brep;
 mod error;
 mod file;
@@ -33,6 +34,6 @@ pub use nastran::write_nastran;
 pub use obj::{write_mtl, write_obj};
 pub use openfoam::{CaseFile, CaseOptions, openfoam_case};
 pub use panels::write_panels;
-pub use step::{StepOptions, write_step};
+pub use step::{StepOptions, StepSchema, write_step};
 pub use stl::write_stl;
 pub use tessellate::{FaceMesh, KeptMeshes, Tessellation, TessellationOptions, tessellate, tessellate_again};

@@ -1,8 +1,8 @@
 //! Nastran bulk data: triangles with a property a group.
 
-use crate::select::select;
+use crate::select::{each_face_once, select};
 use crate::{ExportError, Tessellation};
-use coolinggen_brep::{Grouping, Model};
+use coolinggen_brep::{FaceUse, Grouping, Model};
 use std::io::Write;
 
 /// Writes the surfaces of the solids as `CTRIA3` in millimetres, a property a group, with the group's name in the
@@ -18,10 +18,8 @@ pub fn write_nastran(
     grouping: &Grouping,
     out: &mut impl Write,
 ) -> Result<(), ExportError> {
-    let mut met = vec![false; model.faces.len()];
-    let chosen = select(model, solids)?;
-    let faces = chosen.iter().flat_map(|s| s.faces());
-    let faces: Vec<_> = faces.filter(|used| !std::mem::replace(&mut met[used.face.0], true)).collect();
+    let faces: Vec<FaceUse> =
+        each_face_once(model, &select(model, solids)?).iter().map(|met| met.used).collect();
     let mut groups: Vec<usize> = faces.iter().map(|used| grouping.index_of(used.face)).collect();
     groups.sort_unstable();
     groups.dedup();

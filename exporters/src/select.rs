@@ -1,7 +1,7 @@
 //! Which solids of a model are exported.
 
 use crate::ExportError;
-use coolinggen_brep::{Model, Solid};
+use coolinggen_brep::{FaceUse, Model, Solid};
 
 /// The solids of these names in the order of the names; all solids for an empty list.
 pub(crate) fn select<'a>(model: &'a Model, names: &[&str]) -> Result<Vec<&'a Solid>, ExportError> {
@@ -23,6 +23,31 @@ pub(crate) fn select<'a>(model: &'a Model, names: &[&str]) -> Result<Vec<&'a Sol
         check(model, solid)?;
     }
     Ok(chosen)
+}
+
+/// A face of some solids.
+#[derive(Clone, Copy)]
+pub(crate) struct Met {
+    /// The face as the first of the solids uses it.
+    pub(crate) used: FaceUse,
+    /// How many of the solids use it.
+    pub(crate) times: usize,
+}
+
+/// The faces of solids, each once, in the order in which the solids meet them.
+pub(crate) fn each_face_once(model: &Model, solids: &[&Solid]) -> Vec<Met> {
+    let mut place: Vec<Option<usize>> = vec![None; model.faces.len()];
+    let mut met: Vec<Met> = Vec::new();
+    for used in solids.iter().flat_map(|s| s.faces()) {
+        match place[used.face.0] {
+            Some(known) => met[known].times += 1,
+            None => {
+                place[used.face.0] = Some(met.len());
+                met.push(Met { used, times: 1 });
+            }
+        }
+    }
+    met
 }
 
 /// What every exporter takes for granted: no empty shell, and no face without a border.

@@ -1,7 +1,7 @@
 //! ASCII STL with one named region a face or a group.
 
 use crate::materials::word;
-use crate::select::select;
+use crate::select::{each_face_once, select};
 use crate::{ExportError, Tessellation};
 use coolinggen_brep::{FaceUse, Grouping, Model};
 use glam::DVec3;
@@ -39,12 +39,9 @@ pub(crate) fn write_stl_of_groups(
     scale: f64,
     out: &mut impl Write,
 ) -> Result<(), ExportError> {
-    let mut met = vec![false; model.faces.len()];
     let mut groups: Vec<Vec<FaceUse>> = vec![Vec::new(); names.len()];
-    for used in select(model, solids)?.iter().flat_map(|s| s.faces()) {
-        if !std::mem::replace(&mut met[used.face.0], true) {
-            groups[grouping.index_of(used.face)].push(used);
-        }
+    for met in each_face_once(model, &select(model, solids)?) {
+        groups[grouping.index_of(met.used.face)].push(met.used);
     }
     for (name, faces) in names.iter().zip(&groups).filter(|(_, faces)| !faces.is_empty()) {
         write_region(name, faces, mesh, scale, out)?;

@@ -2,12 +2,16 @@
 
 mod support;
 
-use coolinggen_exporters::{ExportError, StepOptions, write_step};
+use coolinggen_exporters::{ExportError, StepOptions, StepSchema, write_step};
 use std::collections::BTreeMap;
 
 fn step(model: &coolinggen_brep::Model, solids: &[&str]) -> String {
+    step_of(StepSchema::Ap214, model, solids)
+}
+
+fn step_of(schema: StepSchema, model: &coolinggen_brep::Model, solids: &[&str]) -> String {
     let mut out = Vec::new();
-    let options = StepOptions { name: "blade".to_owned(), ..StepOptions::default() };
+    let options = StepOptions { name: "blade".to_owned(), schema, ..StepOptions::default() };
     write_step(model, solids, &options, &mut out).unwrap();
     String::from_utf8(out).unwrap()
 }
@@ -52,6 +56,39 @@ fn references_resolve_and_counts_are_right() {
         assert_eq!(count("MANIFOLD_SOLID_BREP") + count("BREP_WITH_VOIDS"), model.solids.len(), "{name}");
         let shells: usize = model.solids.iter().map(|s| s.shells.len()).sum();
         assert_eq!(count("CLOSED_SHELL"), shells, "{name}");
+    }
+}
+
+/// From each face through its use to its aspect, and from that to its own product, whose representation has the face.
+#[test]
+fn aspects_of_ap242_name_every_face() {
+    let name = |body: &str| body.split('\'').nth(1).unwrap().to_owned();
+    for (model_name, model) in support::all() {
+        let plain = step(&model, &[]);
+        assert!(!plain.contains("SHAPE_ASPECT("), "{model_name}");
+        let text = step_of(StepSchema::Ap242, &model, &[]);
+        assert!(text.contains("FILE_SCHEMA(('AP242_MANAGED_MODEL_BASED_3D_ENGINEERING_MIM_LF {"));
+        let all = entities(&text);
+        let mut faces: BTreeMap<usize, String> =
+            of_kind(&all, "ADVANCED_FACE").into_iter().map(|(id, body)| (id, name(body))).collect();
+        for (_, body) in of_kind(&all, "GEOMETRIC_ITEM_SPECIFIC_USAGE") {
+            let [aspect, representation, face] = references(body)[..] else { panic!("{body}") };
+            assert_eq!(faces.remove(&face), Some(name(all[&aspect])), "{model_name}: once, by its name");
+            let shape = references(all[&aspect])[0];
+            assert!(all[&shape].starts_with("PRODUCT_DEFINITION_SHAPE("), "{model_name}");
+            let represented = of_kind(&all, "SHAPE_DEFINITION_REPRESENTATION");
+            assert!(represented.iter().any(|(_, body)| references(body) == [shape, representation]));
+            let brep = references(all[&representation])[1];
+            let shells = references(all[&brep]).into_iter().flat_map(|shell| {
+                let own = references(all[&shell]);
+                // Voids are shells by way of oriented ones.
+                let below = own.iter().filter(|id| all[id].starts_with("CLOSED_SHELL"));
+                let below: Vec<usize> = below.flat_map(|id| references(all[id])).collect();
+                [own, below].concat()
+            });
+            assert!(shells.into_iter().any(|id| id == face), "{model_name}: its own solid's");
+        }
+        assert!(faces.is_empty(), "{model_name}: {faces:?}");
     }
 }
 

@@ -15,6 +15,7 @@ SAMPLES = Path(os.environ.get("COOLINGGEN_SAMPLES", REPOSITORY / "samples")).res
 #: Formats of files a part, with what the files' names end with, and those of one file for all parts.
 FORMATS = {
     "step": "step",
+    "step_ap242": "ap242.step",
     "brep": "brep",
     "iges": "igs",
     "iges_surfaces": "surfaces.igs",

@@ -17,9 +17,6 @@ ENVIRONMENT = {**os.environ, "WM_PROJECT_DIR": "/usr/share/openfoam"}
 #: Samples whose cells are few enough for every run; snappyHexMesh takes minutes for holes.
 MESHED = ("rotor", "step")
 
-if shutil.which("snappyHexMesh") is None:
-    pytest.skip("OpenFOAM is not on this machine", allow_module_level=True)
-
 
 @pytest.fixture(scope="session")
 def case(model) -> Path:
@@ -27,6 +24,7 @@ def case(model) -> Path:
 
 
 def run(program: str, *arguments: str, folder: Path) -> str:
+    assert shutil.which(program), f"{program} is missing: run tests/install"
     done = subprocess.run(
         [program, *arguments],
         cwd=folder,

@@ -77,7 +77,10 @@ def job(step: Path) -> tuple[Path, list[str]]:
         wrong = complaints(step)
     except Exception as error:
         wrong = [repr(error)]
-    kept(step).write_text(json.dumps({"sha256": read, "wrong": wrong}) + "\n", encoding="utf-8")
+    # Whole or not at all: a run may be stopped here.
+    part = step.with_suffix(".occ.part")
+    part.write_text(json.dumps({"sha256": read, "wrong": wrong}) + "\n", encoding="utf-8")
+    part.replace(kept(step))
     return step, wrong
 
 

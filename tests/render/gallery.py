@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Builds every sample and draws it: docs/gallery/<sample>.png; and some as whole rows: <sample>-row.png.
+"""Builds every sample and draws it: docs/gallery/<sample>.png; and some as whole rows: <sample>-row.png,
+or with their inlets extended: <sample>-inlets.png.
 
     tests/.venv-render/bin/python tests/render/gallery.py [--samples rotor,c3x] [--out docs/gallery]
 
@@ -14,6 +15,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 from picture import Stage, save
@@ -28,6 +30,8 @@ ROWS = {
     "medial-propeller": {"count": 4, "hub": {"thickness": 4}},
     "propeller": {"count": 3, "hub": {"thickness": 8}},
 }
+#: Lengths of inlet extensions, mm.
+INLETS = {"vane-insert": 50}
 
 
 def built(design: Path) -> list[Solid]:
@@ -48,14 +52,26 @@ def draw(design: Path, out: Path) -> None:
     save(Stage(solids, AZIMUTH, ELEVATION).shoot(views, CUT, WIDTH if cooled else WIDTH // 2), out)
 
 
-def draw_row(design: Path, pattern: dict, out: Path) -> None:
-    """The row of a sample: as it is, and cut through its axis."""
-    row = json.loads(design.read_text(encoding="utf-8")) | {"pattern": pattern}
+def changed(design: Path, change: Callable[[dict], None]) -> list[Solid]:
+    """The solids of a design with a change."""
+    document = json.loads(design.read_text(encoding="utf-8"))
+    change(document)
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / design.name
-        path.write_text(json.dumps(row), encoding="utf-8")
-        stage = Stage(built(path), 40, 24, along_axis=True)
-    save(stage.shoot(["row", "half"], CUT, WIDTH), out)
+        path.write_text(json.dumps(document), encoding="utf-8")
+        return built(path)
+
+
+def draw_row(design: Path, pattern: dict, out: Path) -> None:
+    """The row of a sample: as it is, and cut through its axis."""
+    solids = changed(design, lambda document: document.update(pattern=pattern))
+    save(Stage(solids, 40, 24, along_axis=True).shoot(["row", "half"], CUT, WIDTH), out)
+
+
+def draw_inlets(design: Path, length: float, out: Path) -> None:
+    """A sample whose coolant goes on below the hub: through the metal, and alone."""
+    solids = changed(design, lambda document: document["cooling"].update(inlet_extension=length))
+    save(Stage(solids, AZIMUTH, ELEVATION).shoot(["glass", "coolant"], CUT, WIDTH), out)
 
 
 def main() -> None:
@@ -76,6 +92,11 @@ def main() -> None:
         if names is None or row in names:
             draw_row(REPOSITORY / f"samples/{stem}.json", pattern, options.out / f"{row}.png")
             print(options.out / f"{row}.png")
+    for stem, length in INLETS.items():
+        inlets = f"{stem}-inlets"
+        if names is None or inlets in names:
+            draw_inlets(REPOSITORY / f"samples/{stem}.json", length, options.out / f"{inlets}.png")
+            print(options.out / f"{inlets}.png")
 
 
 if __name__ == "__main__":

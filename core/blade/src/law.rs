@@ -1,7 +1,7 @@
 //! Laws: values along the span.
 
 use crate::fault::{Fault, Pointer};
-use coolinggen_nurbs::{Curve, Knots, ParametricCurve};
+use coolinggen_nurbs::{Curve, Knots, NurbsError, ParametricCurve, fit_function};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -117,6 +117,29 @@ impl Law {
     /// Value at span fraction `v`; the end values beyond the ends. Exact to rounding.
     pub fn at(&self, v: f64) -> f64 {
         self.with_slope(v).0
+    }
+
+    /// The law over [0, 1] as a B-spline function of v, and how far that is off: not at all for a constant and where the
+    /// abscissae of the control points run evenly with the parameter, else a cubic within `tolerance`.
+    pub(crate) fn function(&self, tolerance: f64) -> Result<(Curve<f64>, f64), NurbsError> {
+        match &self.form {
+            Form::Constant(value) => return Ok((Curve::segment(*value, *value), 0.0)),
+            Form::Spline(curve) => {
+                let even = curve.knots().greville();
+                let runs_evenly = even.iter().zip(curve.points()).all(|(t, p)| (t - p.x).abs() <= 1e-15);
+                if runs_evenly {
+                    return Ok((curve.map(|p| p.y), 0.0));
+                }
+            }
+            Form::Sum(..) => (),
+        }
+        let mut breaks = self.breaks();
+        breaks.extend([0.0, 1.0]);
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        let value = |v: f64| <[f64; 2]>::from(self.with_slope(v));
+        let fit = fit_function(value, &breaks, tolerance)?;
+        Ok((fit.curve, fit.greatest))
     }
 
     /// Value and its derivative in v at `v`.

@@ -23,7 +23,7 @@ pub use law::{Law, LawSpec};
 pub use source::closed::EdgesSpec;
 pub use source::medial::{
     ClosingSpec, Hand, KnotsSpec, MeanLine, ProfileSpec, PropellerRow, PropellerSource, PropellerTableSource,
-    SideSpec, SkinSpec, ThicknessForm, TurbineSource,
+    SideSpec, SkinMethod, SkinSpec, ThicknessForm, TurbineSource,
 };
 pub use source::pritchard::{PritchardSource, Stacking};
 pub use source::sections::{Extreme, SectionSpec, SectionsSource};

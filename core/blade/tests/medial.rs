@@ -115,6 +115,21 @@ fn chosen_control_points_are_kept() {
 }
 
 #[test]
+fn composed_skins_are_asked_for_by_name() {
+    let mut design = francis();
+    design["blade"]["skin"] = json!({"method": "composed"});
+    let (_, blade) = built(&design);
+    assert!(blade.fit.greatest_distance_mm <= 1e-3);
+    assert!(blade.fit.notes.iter().any(|n| n.contains("of degree 23 x 6")), "{:?}", blade.fit.notes);
+    design["blade"]["pressure_side"] = json!({"thickness": [[0, 3], [1, 8]]});
+    assert_eq!(refused(&design), [("/blade/skin/method".to_owned(), "no_composition")]);
+    let mut propeller = propeller();
+    propeller["blade"]["skin"] = json!({"method": "composed", "control_points": [20, 10]});
+    let expected = [("/blade/skin/method", "no_composition"), ("/blade/skin/control_points", "excludes")];
+    assert_eq!(refused(&propeller), expected.map(|(p, c)| (p.to_owned(), c)));
+}
+
+#[test]
 fn all_faults_come_at_once() {
     let mut design = francis();
     let blade = design["blade"].as_object_mut().unwrap();

@@ -92,6 +92,11 @@ impl Bounds {
         Self { min: tight.min - margin, max: tight.max + margin }
     }
 
+    /// The box around both.
+    fn union(self, other: Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
     /// Whether the line passes through the box ahead of its origin and before `farthest`; `inverse` has the reciprocals
     /// of its direction.
     fn may_meet(&self, origin: DVec3, inverse: DVec3, farthest: f64) -> bool {
@@ -122,30 +127,30 @@ fn cast_face(id: FaceId, surface: &SurfaceGeometry) -> Option<CastFace> {
 }
 
 impl CastFace {
-    /// Adds the node of the quadrangles `i` by `j`, and its parts.
-    fn add(&mut self, points: &[(DVec3, DVec2)], i: Range<usize>, j: Range<usize>) {
+    /// Adds the node of the quadrangles `i` by `j`, and its parts; answers with its box.
+    fn add(&mut self, points: &[(DVec3, DVec2)], i: Range<usize>, j: Range<usize>) -> Bounds {
         let place = |i: usize, j: usize| points[i * (STEPS.1 + 1) + j];
-        let inside = (i.start..=i.end).flat_map(|i| (j.start..=j.end).map(move |j| (i, j)));
-        let bounds = Bounds::of(inside.map(|(i, j)| place(i, j).0));
         let node = self.nodes.len();
         let first = self.triangles.len();
-        self.nodes.push(Node { bounds, next: 0, triangles: first..first });
-        if i.len() * j.len() <= LEAF {
+        self.nodes.push(Node { bounds: Bounds::EMPTY, next: 0, triangles: first..first });
+        let bounds = if i.len() * j.len() <= LEAF {
+            let inside = (i.start..=i.end).flat_map(|i| (j.start..=j.end).map(move |j| (i, j)));
+            let bounds = Bounds::of(inside.map(|(i, j)| place(i, j).0));
             for (i, j) in i.flat_map(|i| j.clone().map(move |j| (i, j))) {
                 let [a, b, c, d] = [place(i, j), place(i, j + 1), place(i + 1, j), place(i + 1, j + 1)];
                 self.triangles.extend([[a, c, d], [a, d, b]]);
             }
             self.nodes[node].triangles = first..self.triangles.len();
+            bounds
         } else if i.len() >= j.len() {
             let middle = i.start + i.len() / 2;
-            self.add(points, i.start..middle, j.clone());
-            self.add(points, middle..i.end, j);
+            self.add(points, i.start..middle, j.clone()).union(self.add(points, middle..i.end, j))
         } else {
             let middle = j.start + j.len() / 2;
-            self.add(points, i.clone(), j.start..middle);
-            self.add(points, i, middle..j.end);
-        }
-        self.nodes[node].next = self.nodes.len();
+            self.add(points, i.clone(), j.start..middle).union(self.add(points, i, middle..j.end))
+        };
+        (self.nodes[node].bounds, self.nodes[node].next) = (bounds, self.nodes.len());
+        bounds
     }
 }
 

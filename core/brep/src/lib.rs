@@ -42,7 +42,7 @@ pub use geometry::{EdgeCurve, Plane, Revolution, RevolutionKind, SurfaceGeometry
 pub use group::{Group, Grouping};
 pub use imprint::{Imprint, RingPiece};
 pub use mass::{FaceIntegrals, SolidMass, face_integrals};
-pub use measures::{Measures, Numbered};
+pub use measures::{Checked, Measures, Numbered};
 pub use memo::{Content, Key, Memo};
 pub use model::{Coedge, Edge, EdgeId, Face, FaceId, FaceUse, Loop, Model, Shell, Solid, Style, VertexId};
 pub use probe::SurfaceProbe;

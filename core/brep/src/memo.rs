@@ -89,6 +89,7 @@ pub struct Memo<T> {
     /// Entries after the last round that came to an end.
     settled: usize,
     made: u64,
+    idle: bool,
 }
 
 /// Rounds that a result outlives unused: going back and forth between designs costs nothing.
@@ -98,11 +99,37 @@ const LEFT_OVER: (usize, usize) = (3, 1000);
 
 impl<T> Default for Memo<T> {
     fn default() -> Self {
-        Self { kept: HashMap::default(), round: 0, settled: 0, made: 0 }
+        Self { kept: HashMap::default(), round: 0, settled: 0, made: 0, idle: false }
     }
 }
 
 impl<T: Clone> Memo<T> {
+    /// A memo for what is built once: it keeps nothing.
+    pub fn idle() -> Self {
+        Self { idle: true, ..Self::default() }
+    }
+
+    /// As [`Memo::get`]; where nothing is kept, no key is made either, which may take longer than what it is for.
+    ///
+    /// # Errors
+    /// As [`Memo::get`].
+    pub fn get_by<E>(
+        &mut self,
+        key: impl FnOnce() -> Key,
+        make: impl FnOnce() -> Result<T, E>,
+    ) -> Result<T, E> {
+        if self.idle {
+            self.made += 1;
+            return make();
+        }
+        self.get(key(), make)
+    }
+
+    /// Whether it keeps nothing.
+    pub fn is_idle(&self) -> bool {
+        self.idle
+    }
+
     /// What is kept under the key, or else is made now.
     ///
     /// # Errors
@@ -126,7 +153,9 @@ impl<T: Clone> Memo<T> {
     /// Keeps what was made.
     pub fn keep(&mut self, key: Key, value: T) {
         self.made += 1;
-        self.kept.insert(key, (value, self.round));
+        if !self.idle {
+            self.kept.insert(key, (value, self.round));
+        }
     }
 
     /// Ends a round: one that came to its end, or one that was broken off, whose results serve the next.
@@ -305,6 +334,16 @@ mod tests {
         }
         assert!(memo.kept.len() <= LEFT_OVER.1 + 1, "{}", memo.kept.len());
         assert_eq!(memo.get(Key::of(7.0), || Err(())), Err(()));
+    }
+
+    #[test]
+    fn an_idle_memo_keeps_nothing_and_makes_no_keys() {
+        let mut memo = Memo::idle();
+        for _ in 0..2 {
+            assert_eq!(memo.get_by(|| unreachable!("a key"), || Ok::<_, ()>(4)), Ok(4));
+        }
+        assert_eq!([number(&mut memo, 3), number(&mut memo, 3)], [9, 9]);
+        assert_eq!((memo.made(), memo.kept.len()), (4, 0));
     }
 
     #[test]

@@ -39,7 +39,8 @@ pub enum Stopped {
 /// # Errors
 /// All faults found: those of blade, space and cooling that need no geometry together, else those of the geometry.
 pub fn generate(design: &Design, folder: &Path) -> Result<Generated, Vec<Fault>> {
-    Warm::default().generate(design, folder, &Unwatched).map_err(|stopped| match stopped {
+    let mut once = Warm { build: KeptBuild::once(), measures: KeptMeasures::once(), ..Warm::default() };
+    once.generate(design, folder, &Unwatched).map_err(|stopped| match stopped {
         Stopped::Refused(faults) => faults,
         Stopped::Cancelled => Vec::new(),
     })

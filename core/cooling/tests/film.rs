@@ -290,45 +290,6 @@ fn slots_beside_thin_sides_are_refused_with_what_fits() {
     }
 }
 
-/// The coolant goes on straight below the hub; the metal stays what it is.
-#[test]
-fn inlets_go_on_below_the_hub() {
-    for (name, inlets) in [("rotor-serpentine.json", 1), ("rotor.json", 2), ("c3x-film.json", 7)] {
-        let mut design = sample(name);
-        let before = built(&design).report;
-        design["cooling"]["inlet_extension"] = json!(12.0);
-        let generated = built(&design);
-        let report = &generated.report;
-        assert!(report.watertight);
-        for (solid, genus) in &report.genus {
-            assert_eq!(genus.found, Some(genus.expected), "{solid}");
-        }
-        let metal = |report: &coolinggen_cooling::report::Report| report.solids["metal"].volume_mm3;
-        assert_eq!(metal(report), metal(&before), "{name}");
-        let mut extended = 0;
-        for face in before.faces.iter().filter(|f| f.name.starts_with("coolant/inlet/")) {
-            let solid = &face.solids[0];
-            let added = report.solids[solid].volume_mm3 - before.solids[solid].volume_mm3;
-            // A cylinder on the inlet's area, as its projection along the hub's normal in its middle: the inlet is
-            // nearly flat.
-            assert!((added / (12.0 * face.area_mm2) - 1.0).abs() < 0.01, "{name} {solid}: {added}");
-            let walls = format!("{}/inlet_extension/", face.name);
-            assert!(
-                report.faces.iter().filter(|f| f.name.starts_with(&walls)).count() >= 2,
-                "{name} {solid}"
-            );
-            extended += 1;
-        }
-        assert_eq!(extended, inlets, "{name}");
-    }
-    let mut shallow = sample("rotor.json");
-    shallow["cooling"]["inlet_extension"] = json!(0.01);
-    let faults = generate(&Design::from_json(&shallow.to_string()).unwrap(), Path::new(".")).map(|_| ());
-    let fault = &faults.expect_err("refused")[0];
-    assert_eq!(fault.pointer, "/cooling/inlet_extension");
-    assert!(fault.min.unwrap() > 0.01);
-}
-
 /// Film holes need no chambers: here they are fed by a radial hole of the C3X vane.
 #[test]
 fn film_holes_fed_by_a_radial_hole() {

@@ -398,6 +398,21 @@ fn turns_without_room_are_refused_with_the_number_that_fits() {
     refused(bare, "/cooling/shell/tip", "missing");
 }
 
+/// A shell that thins out fast towards the tip: round the turn, which bulges into it, less would be left than is asked for.
+#[test]
+fn turns_that_would_thin_the_shell_are_refused_with_what_is_left() {
+    let falling = |c: &mut Value, least: f64| {
+        c["shell"]["suction_side"] = json!([[0, 2.2], [0.5, 1], [1, 0.9]]);
+        c["shell"]["pressure_side"] = json!([[0, 2.7], [0.5, 1], [1, least]]);
+    };
+    let fault = refused(|c| falling(c, 0.7), "/cooling/turns/0", "geometry");
+    let (left, asked) = (fault.value.as_ref().and_then(Value::as_f64).unwrap(), fault.min.unwrap());
+    // Between what the law gives at the tip and in the middle of the span, and missed by more than the tolerance.
+    assert!((0.7..1.0).contains(&asked) && left < asked * (1.0 - 1e-3) && left > 0.9 * asked, "{fault:?}");
+    assert!(fault.message.contains("of metal to the outer surface"), "{fault:?}");
+    assert_eq!(fault.unit, "mm");
+}
+
 /// Film holes open into the sides of turns at the tip and at the hub.
 #[test]
 fn film_holes_open_into_turns() {

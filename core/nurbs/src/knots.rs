@@ -3,8 +3,9 @@
 use crate::error::NurbsError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Highest degree that evaluation supports; basis arrays of this size live on the stack.
-pub const MAX_DEGREE: usize = 15;
+/// Highest degree that evaluation supports; basis arrays of this size live on the stack. A quintic after
+/// a cubic times a function of degree 9 just fits.
+pub const MAX_DEGREE: usize = 24;
 
 /// A knot vector with its degree: non-decreasing knots, clamped or not.
 ///

@@ -9,8 +9,8 @@
 //! # Map
 //!
 //! - `vector`, `knots`, `curve`, `surface`: what everything is made of; [`Homogeneous`] makes the rational forms.
-//! - `edit`: the same points with other knots, degree or domain. Insert, split, extend, remove, elevate, reduce, cut into
-//!   Bezier pieces.
+//! - `edit`: the same points with other knots, degree or domain, products and compositions. Insert, split, extend, remove,
+//!   elevate, reduce, multiply, compose, cut into Bezier pieces.
 //! - `fit`: curves and surfaces through or near points. Interpolation, least squares with constraints, smoothing,
 //!   splines for functions.
 //! - `query`: closest points (from a start value, and proved), arc length, curvature, hits of rays.

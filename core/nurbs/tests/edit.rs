@@ -236,3 +236,104 @@ fn pieces_that_do_not_meet_are_refused() {
     assert!(Curve::joined(&[a.clone(), b], 0.2).is_ok());
     assert!(matches!(Curve::joined(&[a.clone(), a], 0.0), Err(NurbsError::KnotOrder { .. })));
 }
+
+/// A growing function on [0, 1] with values from 0 to 1.
+fn growing() -> impl Strategy<Value = Curve<f64>> {
+    (common::knots(1..=3), proptest::collection::vec(0.1f64..1.0, 60)).prop_map(|(knots, gaps)| {
+        let count = knots.control_count();
+        let total: f64 = gaps[1..count].iter().sum();
+        let mut at = 0.0;
+        let rising = (0..count).map(|i| {
+            at += if i == 0 { 0.0 } else { gaps[i] / total };
+            if i + 1 == count { 1.0 } else { at }
+        });
+        Curve::new(knots, rising.collect()).unwrap()
+    })
+}
+
+proptest! {
+    #![proptest_config(common::fixed())]
+
+    #[test]
+    fn a_product_is_the_product_of_the_points(c in curve(1..=7), f in curve(1..=7)) {
+        let f = f.map(|p| p.x);
+        let both = c.times(&f).unwrap();
+        prop_assert_eq!(both.degree(), c.degree() + f.degree());
+        for i in 0..=300 {
+            let t = f64::from(i) / 300.0;
+            prop_assert!(both.point(t).distance(c.point(t) * f.point(t)) < 1e-13);
+        }
+        // As smooth as the less smooth of both, and no smoother: a knot of either is there as often as it asks for.
+        for b in both.breaks() {
+            let (m, n) = (c.knots().multiplicity(b), f.knots().multiplicity(b));
+            let asked = (if m > 0 { m + f.degree() } else { 0 }).max(if n > 0 { n + c.degree() } else { 0 });
+            let ends = b == 0.0 || b == 1.0;
+            prop_assert_eq!(both.knots().multiplicity(b), if ends { both.degree() + 1 } else { asked });
+        }
+    }
+
+    #[test]
+    fn a_composition_is_the_curve_after_the_function(c in curve(1..=4), u in growing()) {
+        let after = c.composed(&u).unwrap();
+        prop_assert_eq!(after.degree(), c.degree() * u.degree());
+        for i in 0..=300 {
+            let t = f64::from(i) / 300.0;
+            prop_assert!(after.point(t).distance(c.point(u.point(t))) < 1e-12);
+        }
+        prop_assert_eq!(after.points()[0], c.points()[0]);
+        let inner = |k: &Curve<DVec3>| k.breaks().len() - 2;
+        prop_assert!(inner(&after) <= inner(&c) + u.breaks().len() - 2);
+    }
+
+    #[test]
+    fn a_lowered_curve_keeps_tolerance_ends_and_kinks(
+        c in curve(5..=8), degree in 2usize..=4, tolerance in 1e-6f64..1e-2,
+    ) {
+        let (low, bound) = c.lowered(degree, tolerance).unwrap();
+        prop_assert_eq!(low.degree(), degree);
+        prop_assert!(bound <= tolerance);
+        prop_assert!(worst_difference(&c, &low, 0.0, 1.0) <= bound);
+        prop_assert_eq!((low.points()[0], low.points().last()), (c.points()[0], c.points().last()));
+        let times = |k: &Curve<DVec3>, t: f64| k.knots().multiplicity(t);
+        for &b in &low.breaks()[1..low.breaks().len() - 1] {
+            let kink = times(&c, b) == c.degree();
+            prop_assert_eq!(times(&low, b), if kink { degree } else { 1 });
+        }
+    }
+
+    #[test]
+    fn a_raised_curve_comes_back(c in curve(2..=4)) {
+        let (back, bound) = c.elevated().unwrap().elevated().unwrap().lowered(c.degree(), 1e-6).unwrap();
+        prop_assert!(bound <= 1e-6);
+        prop_assert!(worst_difference(&c, &back, 0.0, 1.0) <= 1e-6);
+    }
+
+    #[test]
+    fn surfaces_are_multiplied_composed_and_lowered(s in surface(), u in growing(), f in curve(1..=3)) {
+        let f = f.map(|p| p.y);
+        let made = s.composed_u(&u).unwrap().times_v(&f).unwrap().times_u(&f).unwrap();
+        let (low, of_u) = made.lowered_u(3, 1e-3).unwrap();
+        let (low, of_v) = low.lowered_v(3, 1e-3).unwrap();
+        for i in 0..=20 {
+            for j in 0..=20 {
+                let (t, v) = (f64::from(i) / 20.0, f64::from(j) / 20.0);
+                let asked = s.point(u.point(t), v) * (f.point(t) * f.point(v));
+                prop_assert!(made.point(t, v).distance(asked) < 1e-12);
+                prop_assert!(low.point(t, v).distance(asked) <= of_u + of_v + 1e-12);
+            }
+        }
+    }
+}
+
+#[test]
+fn products_and_compositions_say_what_they_cannot() {
+    let line = Curve::segment(0.0, 1.0);
+    let square = Curve::bezier(vec![0.0, 0.0, 1.0]).unwrap();
+    let high = Curve::bezier(vec![0.0; 14]).unwrap();
+    assert!(matches!(high.times(&high), Err(NurbsError::Degree { degree: 26, .. })));
+    assert!(matches!(line.composed(&square), Err(NurbsError::BadParameters { index: 1 })));
+    assert!(matches!(line.composed(&Curve::segment(0.0, 2.0)), Err(NurbsError::OutOfDomain { .. })));
+    assert!(matches!(high.composed(&high), Err(NurbsError::Degree { degree: 169, .. })));
+    assert!(matches!(line.times(&line.reparameterized(0.0, 2.0)), Err(NurbsError::OutOfDomain { .. })));
+    assert!(matches!(high.lowered(0, 1.0), Err(NurbsError::Degree { .. })));
+}

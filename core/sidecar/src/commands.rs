@@ -10,6 +10,7 @@ use coolinggen_cooling::design::{Design, design_schema};
 use coolinggen_cooling::{Generated, generate as build};
 use coolinggen_exporters::{TessellationOptions, write_atomically};
 use std::io::Write;
+use std::mem::ManuallyDrop;
 use std::path::Path;
 use std::time::Instant;
 
@@ -43,9 +44,10 @@ pub(crate) fn validate(path: &Path, json: bool) -> Result<(), Failure> {
 
 /// Prints the report.
 pub(crate) fn inspect(path: &Path, json: bool) -> Result<(), Failure> {
-    let generated = read_and_build(path, json)?;
+    // What ends with the process needs no freeing.
+    let generated = ManuallyDrop::new(read_and_build(path, json)?);
     if json {
-        print(&format!("{:#}\n", generated.report.to_json()))
+        print(&format!("{:#}\n", *ManuallyDrop::new(generated.report.to_json())))
     } else {
         print(&generated.report.to_text())
     }
@@ -54,7 +56,7 @@ pub(crate) fn inspect(path: &Path, json: bool) -> Result<(), Failure> {
 /// Builds a design and writes the files.
 pub(crate) fn generate(options: &GenerateOptions) -> Result<(), Failure> {
     let json = options.json;
-    let generated = read_and_build(&options.design, json)?;
+    let generated = ManuallyDrop::new(read_and_build(&options.design, json)?);
     let mut report = generated.report.to_json();
     let started = Instant::now();
     write_solids(options, &generated)?;

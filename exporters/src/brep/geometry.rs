@@ -1,6 +1,7 @@
-//! Records of curves and surfaces. Numbers are the shortest decimals that read back as the same doubles.
+//! Records of curves and surfaces.
 
 use crate::forms::{CurveForm, Form, Placement, SurfaceForm, distinct};
+use crate::number::Real;
 use coolinggen_nurbs::{Curve, Homogeneous, Knots};
 use glam::{DVec2, DVec3};
 use std::fmt::{Display, Formatter};
@@ -19,7 +20,7 @@ const BSPLINE_SURFACE: u8 = 9;
 pub(super) fn curve_2d(curve: &Curve<DVec2>, out: &mut impl Write) -> io::Result<()> {
     curve_head(false, curve.knots(), out)?;
     for p in curve.points() {
-        write!(out, "  {} {}", Number(p.x), Number(p.y))?;
+        write!(out, "  {} {}", Real(p.x), Real(p.y))?;
     }
     knots(curve.knots(), out)
 }
@@ -52,10 +53,10 @@ pub(super) fn surface(surface: &SurfaceForm<'_>, out: &mut impl Write) -> io::Re
     match &surface.form {
         Form::Plane(p) => writeln!(out, "{PLANE} {}", Axes(p)),
         Form::Cylinder { placement, radius } => {
-            writeln!(out, "{CYLINDER} {} {}", Axes(placement), Number(*radius))
+            writeln!(out, "{CYLINDER} {} {}", Axes(placement), Real(*radius))
         }
         Form::Cone { placement, radius, angle } => {
-            writeln!(out, "{CONE} {} {} {}", Axes(placement), Number(*radius), Number(*angle))
+            writeln!(out, "{CONE} {} {} {}", Axes(placement), Real(*radius), Real(*angle))
         }
         Form::Revolved { meridian, axis } => {
             writeln!(out, "{REVOLUTION} {} {}", Spaced(DVec3::ZERO), Spaced(*axis))?;
@@ -95,24 +96,13 @@ fn plain(points: &[DVec3], out: &mut impl Write) -> io::Result<()> {
 }
 
 fn weighted(points: &[Homogeneous<DVec3>], out: &mut impl Write) -> io::Result<()> {
-    points.iter().try_for_each(|p| write!(out, "  {} {}", Spaced(p.project()), Number(p.weight)))
+    points.iter().try_for_each(|p| write!(out, "  {} {}", Spaced(p.project()), Real(p.weight)))
 }
 
 fn knots(knots: &Knots, out: &mut impl Write) -> io::Result<()> {
     let (values, counts) = distinct(knots);
-    values.iter().zip(counts).try_for_each(|(value, count)| write!(out, "\n{} {count}", Number(*value)))?;
+    values.iter().zip(counts).try_for_each(|(value, count)| write!(out, "\n{} {count}", Real(*value)))?;
     writeln!(out)
-}
-
-/// A number as the shortest decimal that reads back as the same double: with an exponent where there would be many
-/// zeros, since OpenCASCADE reads no more than some thirty characters of one.
-pub(super) struct Number(pub(super) f64);
-
-impl Display for Number {
-    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        // Debug prints exponents; adding zero turns -0 into 0.
-        write!(f, "{:?}", self.0 + 0.0)
-    }
 }
 
 /// Three numbers.
@@ -120,7 +110,7 @@ pub(super) struct Spaced(pub(super) DVec3);
 
 impl Display for Spaced {
     fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} {} {}", Number(self.0.x), Number(self.0.y), Number(self.0.z))
+        write!(f, "{} {} {}", Real(self.0.x), Real(self.0.y), Real(self.0.z))
     }
 }
 

@@ -1,8 +1,9 @@
 //! Records of vertices, edges, wires, faces, shells and solids: each after its parts, counted from the last.
 
-use super::geometry::{self, Number, Spaced};
+use super::geometry::{self, Spaced};
 use crate::ExportError;
-use crate::forms::{CurveForm, Form, SurfaceForm, curve, pcurve, surface};
+use crate::forms::{CurveForm, Form, SurfaceForm, curve, jumps, pcurve, surface};
+use crate::number::Real;
 use coolinggen_brep::{EdgeId, FaceId, FaceUse, Model, Solid, VertexId};
 use coolinggen_nurbs::{Curve, ParametricCurve};
 use glam::DVec2;
@@ -11,18 +12,6 @@ use std::io::{self, Write};
 
 /// Tolerance of vertices, edges and faces, mm: OpenCASCADE's least. Edges of built designs lie within a third of it.
 const TOLERANCE: f64 = 1e-7;
-
-/// STEP measures cones along their axis, OpenCASCADE along their sides.
-fn in_own_parameters(curve: Curve<DVec2>, form: &SurfaceForm<'_>) -> Curve<DVec2> {
-    match form.form {
-        Form::Cone { angle, .. } => curve.map(|p| DVec2::new(p.x, p.y / angle.cos())),
-        _ => curve,
-    }
-}
-
-/// Distance in a surface's parameters between the end of one edge and the begin of the next that is a pole's, not a
-/// rounding. Parameters are millimetres, radians or fractions.
-const PARAMETER_GAP: f64 = 1e-6;
 
 /// Flags of records: free, modified, checked, orientable, closed, infinite, convex.
 mod flags {
@@ -162,12 +151,9 @@ impl<'a> Shapes<'a> {
                 parts.push(Part { record, forward: coedge.forward });
             }
             if ways.len() == parts.len() {
-                for k in (0..ways.len()).rev() {
-                    let gap = [ways[k][1], ways[(k + 1) % ways.len()][0]];
-                    if gap[0].distance(gap[1]) > PARAMETER_GAP {
-                        let vertex = self.vertex(model.end_of(&bound.coedges[k]));
-                        parts.insert(k + 1, self.pole(vertex, number, gap));
-                    }
+                for (k, gap) in jumps(&ways) {
+                    let vertex = self.vertex(model.end_of(&bound.coedges[k]));
+                    parts.insert(k + 1, self.pole(vertex, number, gap));
                 }
             }
             // Loops run counterclockwise about the natural normal, wires about the form's.
@@ -246,7 +232,7 @@ impl<'a> Shapes<'a> {
             Record::Edge(index) => {
                 let edge = &self.edges[*index];
                 let (start, end) = edge.curve.domain();
-                let (start, end) = (Number(start), Number(end));
+                let (start, end) = (Real(start), Real(end));
                 // Same parameters, same range, not degenerate; then the curve in space and those on surfaces.
                 writeln!(out, "Ed\n {TOLERANCE:e} 1 1 0\n1  {} 0 {start} {end}", index + 1)?;
                 for (surface, curves) in &edge.pcurves {
@@ -306,5 +292,13 @@ impl<'a> Shapes<'a> {
             write!(out, "{sign}{} 0 ", self.records.len() - part.record)?;
         }
         writeln!(out, "*")
+    }
+}
+
+/// STEP measures cones along their axis, OpenCASCADE along their sides.
+fn in_own_parameters(curve: Curve<DVec2>, form: &SurfaceForm<'_>) -> Curve<DVec2> {
+    match form.form {
+        Form::Cone { angle, .. } => curve.map(|p| DVec2::new(p.x, p.y / angle.cos())),
+        _ => curve,
     }
 }

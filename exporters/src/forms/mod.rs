@@ -2,6 +2,7 @@
 //! revolution and B-splines. STEP and BREP write them, each in its own words; IGES has B-splines alone.
 
 mod curve;
+mod jumps;
 mod pcurve;
 mod ruled;
 mod surface;
@@ -9,6 +10,7 @@ mod surface;
 use coolinggen_nurbs::Knots;
 
 pub(crate) use curve::{CurveForm, curve};
+pub(crate) use jumps::jumps;
 pub(crate) use pcurve::pcurve;
 pub(crate) use surface::{Form, Placement, SurfaceForm, rather_transposed, surface};
 

@@ -13,7 +13,7 @@ mod solids;
 mod trimmed;
 
 use crate::ExportError;
-use crate::select::select;
+use crate::select::{each_face_once, select};
 use coolinggen_brep::{FaceId, Grouping, Model, Solid};
 use entities::Colors;
 use lines::{Directory, File, Pointer};
@@ -101,9 +101,7 @@ struct Faces<'a> {
 impl<'a> Faces<'a> {
     /// The faces of these solids, each once, in the order in which the solids meet them.
     fn of(&self, solids: &[&Solid]) -> Vec<FaceId> {
-        let mut seen = vec![false; self.model.faces.len()];
-        let all = solids.iter().flat_map(|s| s.faces()).map(|used| used.face);
-        all.filter(|face| !std::mem::replace(&mut seen[face.0], true)).collect()
+        each_face_once(self.model, solids).iter().map(|met| met.used.face).collect()
     }
 
     /// Label, level and colour of what a face is made into.

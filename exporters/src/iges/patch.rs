@@ -2,15 +2,11 @@
 
 use super::circle::circle;
 use crate::ExportError;
-use crate::forms::rather_transposed;
+use crate::forms::{jumps, rather_transposed};
 use coolinggen_brep::{Coedge, EdgeId, Face, Loop, Model, Plane, Revolution, SurfaceGeometry, VertexId};
 use coolinggen_nurbs::{Curve, Homogeneous, Knots, NurbsError, ParametricCurve, Surface};
 use glam::{DVec2, DVec3};
 use std::borrow::Cow;
-
-/// Parameters that are farther apart than this share of the domain are not the same: the loop jumps, which it does only in
-/// a pole.
-const JUMP: f64 = 1e-6;
 
 /// Control points and knots of a surface.
 pub(super) enum Net<'a> {
@@ -92,35 +88,20 @@ impl<'a> Patch<'a> {
             let curve = if along { own } else { own.reversed() };
             sides.push(Side { curve, on: Place::Edge { id: coedge.edge, along } });
         }
-        // Poles, from behind so that the places before stay what they are.
-        for i in (0..run.len()).rev() {
-            let (end, start) = (end_of(&sides[i].curve), start_of(&sides[(i + 1) % run.len()].curve));
-            if self.apart(end, start) {
-                let (coedge, along) = run[i];
-                let edge = model.edge(coedge.edge);
-                let vertex = if along { edge.end } else { edge.start };
-                sides.insert(i + 1, Side { curve: Curve::segment(end, start), on: Place::Pole(vertex) });
-            }
+        let ways: Vec<[DVec2; 2]> = sides.iter().map(|side| ends(&side.curve)).collect();
+        for (i, [from, to]) in jumps(&ways) {
+            let (coedge, along) = run[i];
+            let edge = model.edge(coedge.edge);
+            let vertex = if along { edge.end } else { edge.start };
+            sides.insert(i + 1, Side { curve: Curve::segment(from, to), on: Place::Pole(vertex) });
         }
         sides
     }
-
-    fn apart(&self, a: DVec2, b: DVec2) -> bool {
-        let (u, v) = match &self.net {
-            Net::Plain(s) => (s.knots_u().domain(), s.knots_v().domain()),
-            Net::Rational(s) => (s.knots_u().domain(), s.knots_v().domain()),
-        };
-        let d = (a - b).abs();
-        d.x > JUMP * (u.1 - u.0) || d.y > JUMP * (v.1 - v.0)
-    }
 }
 
-fn start_of(curve: &Curve<DVec2>) -> DVec2 {
-    curve.point(curve.domain().0)
-}
-
-fn end_of(curve: &Curve<DVec2>) -> DVec2 {
-    curve.point(curve.domain().1)
+fn ends(curve: &Curve<DVec2>) -> [DVec2; 2] {
+    let (start, end) = curve.domain();
+    [curve.point(start), curve.point(end)]
 }
 
 /// Least and greatest parameters of a face: control points bound its parameter curves.

@@ -2,6 +2,7 @@
 
 use super::{CaseFile, Patch, Region, SCALE};
 use crate::Tessellation;
+use crate::boundary::Boundary;
 use glam::DVec3;
 use std::fmt::Write as _;
 
@@ -76,8 +77,9 @@ fn level(feature_mm: Option<f64>, cell: f64) -> u32 {
 fn snappy(regions: &[Region], patches: &[Patch], cell: f64) -> String {
     let mut names = String::new();
     let mut levels = String::new();
-    for Patch { name, open, feature_mm } in patches {
-        let (level, kind) = (level(*feature_mm, cell), if *open { "patch" } else { "wall" });
+    for Patch { name, boundary, feature_mm } in patches {
+        let level = level(*feature_mm, cell);
+        let kind = if *boundary == Boundary::Wall { "wall" } else { "patch" };
         let _ = writeln!(names, "            {name} {{ name {name}; }}");
         let _ = writeln!(
             levels,

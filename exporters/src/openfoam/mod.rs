@@ -7,11 +7,13 @@ mod dictionaries;
 mod edges;
 mod inside;
 
+use crate::boundary::Boundary;
+use crate::manifest::FacePlace;
 use crate::materials::word;
 use crate::select::select;
 use crate::stl::write_stl_of_groups;
 use crate::{ExportError, Tessellation};
-use coolinggen_brep::{Grouping, Model, Solid};
+use coolinggen_brep::{FaceId, Grouping, Model, Solid};
 use std::collections::HashSet;
 
 /// Metres in a millimetre.
@@ -30,10 +32,8 @@ pub struct CaseFile {
 pub struct CaseOptions<'a> {
     /// Whether the solid of this name is filled with fluid.
     pub is_fluid: &'a dyn Fn(&str) -> bool,
-    /// Whether the group of this role is open: an inlet or an outlet, not a wall.
-    pub is_open: &'a dyn Fn(&str) -> bool,
-    /// Size of the smallest thing at each group, mm, where there is one: what cells must resolve.
-    pub features_mm: &'a [Option<f64>],
+    /// What is known of the model's faces, in their order: cells must resolve the smallest thing at each group.
+    pub places: &'a [FacePlace],
 }
 
 /// A region of the mesh: a solid of the model.
@@ -47,7 +47,7 @@ struct Region {
 /// A patch: a group of the model.
 struct Patch {
     name: String,
-    open: bool,
+    boundary: Boundary,
     feature_mm: Option<f64>,
 }
 
@@ -64,14 +64,20 @@ pub fn openfoam_case(
     let solids = select(model, &[])?;
     let regions = solids.iter().map(|s| region(s, mesh, options)).collect::<Result<Vec<_>, _>>()?;
     let names = patch_names(grouping);
-    let groups = grouping.groups().iter().zip(&names).zip(options.features_mm);
-    let patches: Vec<Patch> = groups
-        .map(|((group, name), feature)| Patch {
+    let mut patches: Vec<Patch> = grouping
+        .groups()
+        .iter()
+        .zip(&names)
+        .map(|(group, name)| Patch {
             name: name.clone(),
-            open: (options.is_open)(&group.role),
-            feature_mm: *feature,
+            boundary: Boundary::of_role(&group.role),
+            feature_mm: None,
         })
         .collect();
+    for (face, place) in options.places.iter().enumerate() {
+        let least = &mut patches[grouping.index_of(FaceId(face))].feature_mm;
+        *least = [*least, place.feature_mm].into_iter().flatten().reduce(f64::min);
+    }
 
     let mut files = dictionaries::all(mesh, &regions, &patches);
     let surface =

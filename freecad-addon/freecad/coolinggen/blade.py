@@ -71,6 +71,7 @@ class CooledSolid(CooledBlade):
     _PROPERTIES = (
         ("SolidName", "App::PropertyString", "Name of the solid"),
         ("FaceNames", "App::PropertyStringList", "Name of each face of the shape"),
+        ("FaceGroups", "App::PropertyStringList", "Group of each face of the shape, as in every file"),
         ("FaceColors", "App::PropertyColorList", "Colour of each face of the shape"),
     )
 
@@ -111,6 +112,7 @@ def fill(obj, built: job.Built) -> None:
         child = known.pop(solid.name, None) or _child(obj, solid.name)
         child.Shape = solid.shape
         child.FaceNames = solid.faces
+        child.FaceGroups = [built.groups[name] for name in solid.faces]
         child.FaceColors = solid.colors
         solids.append(child)
     obj.Solids = solids

@@ -54,20 +54,18 @@ def ask(obj) -> None:
 
 
 def regions(obj) -> list[str]:
-    """What faces are asked for together: bores of a row, a chamber, the blade's sides, inlets and outlets."""
-    return sorted({_region(name) for child in obj.Solids for name in child.FaceNames})
+    """What faces are asked for together: the groups, as in every file."""
+    return sorted({group for child in obj.Solids for group in _groups(child)})
 
 
-def _region(name: str) -> str:
-    """The part of a name that a boundary condition would be for."""
-    parts = name.split("/")
-    if parts[0] in ("blade", "coolant", "insert"):
-        return "/".join(parts[:3] if parts[0] != "blade" else parts[:2])
-    return "/".join(parts[:2])
+def _groups(child) -> list[str]:
+    """The group of each face of a solid; the face's own name in a document from before there were groups,
+    until the blade is built anew."""
+    return getattr(child, "FaceGroups", None) or child.FaceNames
 
 
 def groups(obj) -> object:
-    """A group beside the blade with one feature for each region of each solid.
+    """A group beside the blade with one feature for each group of faces of each solid.
 
     Their ``References`` are the faces, as boundary conditions of FEM and CfdOF take them; they follow the
     names when the design changes.
@@ -95,15 +93,15 @@ class FaceGroups(Proxy):
             )
 
     def execute(self, obj) -> None:
-        """One member for each region of each solid."""
+        """One member for each group of faces of each solid: the groups of the manifest."""
         known = {member.Label: member for member in obj.Group}
         members = []
         for child in obj.Blade.Solids:
             wanted: dict[str, list[str]] = {}
-            for k, name in enumerate(child.FaceNames):
-                wanted.setdefault(_region(name), []).append(f"Face{k + 1}")
-            for region, names in wanted.items():
-                label = f"{child.SolidName}: {region}"
+            for k, name in enumerate(_groups(child)):
+                wanted.setdefault(name, []).append(f"Face{k + 1}")
+            for name, names in wanted.items():
+                label = f"{child.SolidName}: {name}"
                 member = known.pop(label, None) or _member(obj, label)
                 if member.References != (child, names):
                     member.References = (child, names)

@@ -3,6 +3,7 @@
 No document is touched here, so that it may be done beside the window.
 """
 
+import json
 import queue
 import tempfile
 from dataclasses import dataclass
@@ -34,10 +35,11 @@ class Request:
 
 @dataclass(frozen=True)
 class Built:
-    """A blade's solids and their report."""
+    """A blade's solids, their report, and the manifest's group of each face."""
 
     report: dict
     solids: list[convert.Solid]
+    groups: dict[str, str]
 
 
 def preview(request: Request, watch: Watch) -> list[Mesh]:
@@ -73,13 +75,15 @@ def build(request: Request, watch: Watch, *, beside: bool) -> Built:
             cancelled=watch.stopped,
         )
         watch.progress("read", 0.5)
-        brep = Path(files["files"][0]["path"])
+        paths = [Path(file["path"]) for file in files["files"]]
+        brep = next(path for path in paths if path.suffix == ".brep")
+        manifest = json.loads(next(p for p in paths if p.suffix == ".json").read_text(encoding="utf-8"))
         if beside:
             solids = convert.read_beside(brep, reply, watch)
         else:
             solids = convert.read(brep, [decode(solid) for solid in reply["solids"]])
     watch.check()
-    return Built(report, solids)
+    return Built(report, solids, {face["name"]: face["group"] for face in manifest["faces"]})
 
 
 def alone(request: Request) -> Built:

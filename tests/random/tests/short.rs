@@ -72,3 +72,12 @@ fn what_was_refused_without_need_is_built() {
         }
     }
 }
+
+/// A hole of a showerhead, which stands on the nose itself, runs past its chamber.
+#[test]
+fn a_hole_on_the_nose_is_found_to_miss_its_chamber() {
+    let document = design(687);
+    let Outcome::Refused(faults) = outcome(&document) else { panic!("687 is not refused") };
+    let confirmation = confirm(&document, &faults[0]);
+    assert!(matches!(confirmation, Confirmation::Confirmed(_)), "{}: {confirmation:?}", faults[0]);
+}

@@ -8,8 +8,9 @@
 //! The way: [`Trace`]s part the streamlines of the stream space into what lies before, in and behind the blade;
 //! [`Streamline`]s are drawn in the charts; [`MedialSurface`] is a B-spline near all of them with normals; the
 //! [`Pace`] u(t) makes its parameter run as the [`Profile`] does; [`Sides`] are the two sides as functions; [`Skin`]
-//! is one B-spline surface near both.
+//! is one B-spline surface near both, fitted to them or made of their [`Composition`].
 
+mod composition;
 mod cut_out;
 mod deviation;
 mod extended;
@@ -26,6 +27,7 @@ mod trace;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use composition::Composition;
 pub(crate) use cut_out::{CutOut, PointedSides};
 pub(crate) use extended::{Continued, extended};
 pub(crate) use medial_surface::{MedialSurface, Streamlines, unit_normal};

@@ -55,6 +55,11 @@ impl Pace {
         self.curve.point(t).clamp(0.0, 1.0)
     }
 
+    /// u(t) as a B-spline.
+    pub(super) fn curve(&self) -> &Curve<f64> {
+        &self.curve
+    }
+
     /// u(t) and u'(t).
     pub(crate) fn with_slope(&self, t: f64) -> (f64, f64) {
         let [u, slope, _] = self.curve.derivatives(t);

@@ -86,6 +86,11 @@ impl Profile {
         self.curve.derivatives(t)
     }
 
+    /// y(t).
+    pub(super) fn heights(&self) -> Curve<f64> {
+        self.curve.map(|p| p.y)
+    }
+
     /// t at which the leading edge ends: where the profile has turned by 1.1 radians from its tip, for a scale that is
     /// `slenderness` of the streamline's length.
     pub(crate) fn nose_end(&self, slenderness: f64) -> f64 {

@@ -1,5 +1,6 @@
 //! The two sides of a blade: medial surface, normals, profile and scale put together (section 3.4).
 
+use super::composition::Composition;
 use super::medial_surface::MedialSurface;
 use super::pace::Pace;
 use super::profile::Profile;
@@ -19,6 +20,12 @@ pub(crate) trait TwoSided {
 
     /// How fast side `k` leaves the leading edge, d y'(0) half way up, and y''(0) / (2 y'(0)).
     fn nose(&self, k: usize) -> (f64, f64);
+
+    /// Both sides as one B-spline, beginning with side `first`, within a part of `tolerance` (mm); none for sides whose
+    /// composition is out of reach.
+    fn composition(&self, _first: usize, _tolerance: f64) -> Option<Result<Composition, NurbsError>> {
+        None
+    }
 
     /// The point that all lines of constant t end in at v = 1, with the normal of the plane that they leave it in;
     /// none for a blade whose tip is open.
@@ -126,6 +133,10 @@ impl TwoSided for Sides {
 
     fn nose(&self, k: usize) -> (f64, f64) {
         self.sides[k].nose()
+    }
+
+    fn composition(&self, first: usize, tolerance: f64) -> Option<Result<Composition, NurbsError>> {
+        Some(Composition::new(self, first, tolerance))
     }
 }
 

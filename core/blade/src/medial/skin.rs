@@ -1,5 +1,6 @@
 //! One B-spline surface near both sides of a blade (section 3.5).
 
+use super::composition::Composition;
 use super::deviation::Deviation;
 use super::knots;
 use super::medial_surface::{ends_met, points_met};
@@ -103,6 +104,18 @@ impl Skin {
         let knots_v = knots::refined(degree[1], &data.v, &data.rows(), &data.ends(), share)?;
         let surface = data.fit(&knots_u, &knots_v, &places, true)?;
         Ok(Self { surface, first, places })
+    }
+
+    /// The skin that the composition of the sides comes to when its degree is reduced and knots are removed within
+    /// `tolerance`, mm.
+    pub(crate) fn composed(
+        composition: &Composition,
+        first: usize,
+        degree: [usize; 2],
+        tolerance: f64,
+    ) -> Result<Self, NurbsError> {
+        let places = Places { count: 1, s: vec![0.0, composition.nose, 1.0] };
+        Ok(Self { surface: composition.within(degree, tolerance)?, first, places })
     }
 
     /// s at `t` of side `k`.

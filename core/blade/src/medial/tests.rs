@@ -4,7 +4,7 @@ use super::*;
 use crate::fault::Pointer;
 use crate::law::{Law, LawSpec};
 use crate::stream::{Annular, ContourSpec, SpaceSpec, StreamSpace};
-use coolinggen_nurbs::{Knots, ParametricCurve, ParametricSurface, project_on_surface};
+use coolinggen_nurbs::{Knots, NurbsError, ParametricCurve, ParametricSurface, project_on_surface};
 use glam::{DVec2, DVec3};
 
 const HUB: [[f64; 2]; 6] =
@@ -228,6 +228,39 @@ fn proposition_1_holds_for_the_final_b_splines() {
     for v in [0.0, 1.0] {
         assert!(skin.surface.point(skin.place(0, 0.0), v).distance(nose_point(&sides, v)) < 1e-9);
     }
+}
+
+#[test]
+fn a_composition_is_both_sides_exactly_and_its_skin_stays_within_the_tolerance() {
+    // The second pair of scales is no polynomial of v.
+    let bent: [&[[f64; 2]]; 2] =
+        [&[[0.0, 12.0], [0.2, 11.0], [1.0, 8.0]], &[[0.0, 6.0], [0.2, 5.5], [1.0, 4.0]]];
+    for thickness in [THICKNESS, bent] {
+        let sides = runner().sides(thickness);
+        let tolerance = 1e-3;
+        let exact = sides.composition(1, tolerance).unwrap().unwrap();
+        assert!(if thickness == bent { exact.residual < 1e-3 * tolerance } else { exact.residual == 0.0 });
+        let skin = Skin::composed(&exact, 1, [3, 3], tolerance).unwrap();
+        joined_at_the_nose(&sides, &skin);
+        let (mut off, mut greatest) = (0.0f64, 0.0f64);
+        for (k, i, j) in (0..2).flat_map(|k| (0..=97).flat_map(move |i| (0..=23).map(move |j| (k, i, j)))) {
+            let (t, v) = (f64::from(i) / 97.0, f64::from(j) / 23.0);
+            let (s, asked) = (skin.place(k, t), sides.point(k, t, v));
+            off = off.max(exact.surface.point(s, v).distance(asked));
+            greatest = greatest.max(skin.surface.point(s, v).distance(asked));
+        }
+        // Joining takes a knot away, which costs up to a ten-thousandth of the tolerance.
+        assert!(off < 2e-4 * tolerance + exact.residual, "{off:e}");
+        assert!(greatest <= tolerance, "{greatest:e}");
+        let (composed, full) = (skin.surface.counts(), exact.surface.counts());
+        assert!(composed.0 * composed.1 * 20 < full.0 * full.1, "{composed:?} of {full:?}");
+    }
+}
+
+#[test]
+fn sides_without_a_common_tangent_are_not_composed() {
+    let sides = runner().sides([&[[0.0, 12.0], [1.0, 8.0]], &[[0.0, 7.0], [1.0, 2.0]]]);
+    assert!(matches!(sides.composition(0, 1e-3), Some(Err(NurbsError::NoConvergence { .. }))));
 }
 
 /// The two sides as B-splines of their own: opposite derivatives, one normal and the asked leading edge between them.

@@ -22,6 +22,13 @@ pub(crate) struct Drill {
     found: Memo<Arc<Found>>,
 }
 
+impl Drill {
+    /// For bores that are made once: nothing is kept of them.
+    pub(crate) fn once() -> Self {
+        Self { found: Memo::idle(), ..Self::default() }
+    }
+}
+
 /// The faces that bores have parted.
 pub(crate) trait Wholes {
     /// The face that a part was split off from, or the face itself.
@@ -114,7 +121,7 @@ impl Drill {
         wholes: &dyn Wholes,
     ) -> Result<Arc<Found>, BoreError> {
         let mouths = ends.map(|(_, mouth)| mouth);
-        if !mouths.iter().all(|mouth| wholes.lasts(wholes.whole(mouth.face))) {
+        if self.found.is_idle() || !mouths.iter().all(|mouth| wholes.lasts(wholes.whole(mouth.face))) {
             return Ok(Arc::new(Found::new(&mut self.interpolators, model, shape, ends, wholes)?));
         }
         let key = key_of(shape, mouths, wholes);

@@ -277,7 +277,7 @@ impl Blank<'_> {
                 let make =
                     || Ok::<_, NurbsError>(window(surface, &border).unwrap_or_else(|| surface.clone()));
                 let window = if self.parts.lasts(whole) {
-                    self.kept.windows.get(Key::of(whole.0).and(&*border.coedges), make)
+                    self.kept.windows.get_by(|| Key::of(whole.0).and(&*border.coedges), make)
                 } else {
                     make()
                 };

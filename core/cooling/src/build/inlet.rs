@@ -35,7 +35,8 @@ pub(super) fn upward<'a>(
                 "the hub at the inlet \"{name}\" is turned by {angle:.1} deg from that between all inlets"
             );
             let fault = Fault::new("/cooling/inlet_extension", "geometry", message).value(angle);
-            Err(BuildError::Refused(vec![fault.max(MOST_TILT_DEG).unit("deg")]))
+            let hint = "no extension, or inlets that lie nearer to each other round the hub";
+            Err(BuildError::Refused(vec![fault.max(MOST_TILT_DEG).unit("deg").hint(hint)]))
         }
         _ => Ok(Some(up)),
     }

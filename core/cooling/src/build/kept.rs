@@ -22,6 +22,7 @@ pub struct KeptBuild {
     /// What is known of bores in that.
     pub(super) bores: KeptBores,
     made: u64,
+    once: bool,
 }
 
 /// The last blade with its passages, and what it was made from: the outer surface with its space, which are made
@@ -47,7 +48,19 @@ pub(super) struct KeptBores {
     pub(super) windows: Memo<Surface<DVec3>>,
 }
 
+impl KeptBores {
+    /// For bores that are made once: nothing is kept of them but what serves several.
+    fn once() -> Self {
+        Self { drill: Drill::once(), windows: Memo::idle(), ..Self::default() }
+    }
+}
+
 impl KeptBuild {
+    /// For a design that is built once: nothing is kept but what serves several bores.
+    pub fn once() -> Self {
+        Self { bores: KeptBores::once(), once: true, ..Self::default() }
+    }
+
     /// The blade with its passages for this plan: the last one, or one that `make` makes.
     pub(super) fn hollow<E>(
         &mut self,
@@ -64,7 +77,7 @@ impl KeptBuild {
         }
         let hollow = Arc::new(make(&plan)?);
         self.made += 1;
-        self.bores = KeptBores::default();
+        self.bores = if self.once { KeptBores::once() } else { KeptBores::default() };
         self.hollow = Some(KeptHollow { outer: Arc::clone(outer), plan, hollow: Arc::clone(&hollow) });
         Ok(hollow)
     }

@@ -225,15 +225,9 @@ impl Walk {
         let count = items.len() as u64;
         let (least, most) = (bound("minItems"), bound("maxItems"));
         if least.is_some_and(|least| count < least) || most.is_some_and(|most| count > most) {
-            let mut fault =
-                Fault::new(&*pointer, "count", format!("has {count} entries")).value(count).unit("entries");
-            if let Some(least) = least {
-                fault = fault.min(least as f64);
-            }
-            if let Some(most) = most {
-                fault = fault.max(most as f64);
-            }
-            self.report(fault);
+            let fault = Fault::new(&*pointer, "count", format!("has {count} entries"));
+            let fault = fault.value(count).unit("entries");
+            self.report(between(fault, least.map(|n| n as f64), most.map(|n| n as f64)));
             if most.is_some_and(|most| count > most) {
                 return;
             }
@@ -259,13 +253,8 @@ impl Walk {
         let high = limits.maximum.is_some_and(|most| !(number <= most));
         if low || high || !number.is_finite() {
             let side = if low { "too small" } else { "too large" };
-            let mut fault = Fault::new(pointer, "range", side).value(shown(value));
-            if let Some(least) = limits.minimum {
-                fault = fault.min(least);
-            }
-            if let Some(most) = limits.maximum {
-                fault = fault.max(most);
-            }
+            let fault = Fault::new(pointer, "range", side).value(shown(value));
+            let mut fault = between(fault, limits.minimum, limits.maximum);
             if let Some(unit) = limits.unit {
                 fault = fault.unit(unit);
             }
@@ -279,8 +268,7 @@ impl Walk {
         let (least, most) = (bound("minLength"), bound("maxLength"));
         if least.is_some_and(|least| letters < least) || most.is_some_and(|most| letters > most) {
             let fault = Fault::new(pointer, "length", format!("has {letters} letters")).value(text);
-            let fault = least.map_or(fault.clone(), |least| fault.min(least as f64));
-            let fault = most.map_or(fault.clone(), |most| fault.max(most as f64));
+            let fault = between(fault, least.map(|n| n as f64), most.map(|n| n as f64));
             self.report(fault.unit("letters"));
             return;
         }
@@ -355,6 +343,18 @@ impl Walk {
             Some(reference) => self.resolve(reference),
             None => schema,
         }
+    }
+}
+
+/// The fault with its limits.
+fn between(fault: Fault, least: Option<f64>, most: Option<f64>) -> Fault {
+    let fault = match least {
+        Some(least) => fault.min(least),
+        None => fault,
+    };
+    match most {
+        Some(most) => fault.max(most),
+        None => fault,
     }
 }
 

@@ -17,6 +17,11 @@ pub struct KeptMeasures {
 }
 
 impl KeptMeasures {
+    /// For a design that is measured once: nothing is kept.
+    pub fn once() -> Self {
+        Self { faces: Measures::once(), ..Self::default() }
+    }
+
     /// Ends a report, which came to its end or was broken off.
     pub fn end_round(&mut self, complete: bool) {
         self.faces.end_round(complete);

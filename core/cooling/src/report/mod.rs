@@ -12,7 +12,7 @@ mod wall_field;
 use crate::build::{BuildError, CooledBlade, FilmHoleGeometry, RadialHoleGeometry, SlotGeometry};
 use crate::watch::Watch;
 use coolinggen_blade::{Blade, FitReport};
-use coolinggen_brep::{Face, FaceIntegrals, Measures, Model, Numbered, SolidCheck, face_integrals};
+use coolinggen_brep::{Checked, Face, FaceIntegrals, Measures, Model, Numbered, SolidCheck, face_integrals};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -301,8 +301,10 @@ impl Report {
         (kept, numbered): (&mut Measures, &Numbered),
         watch: &dyn Watch,
     ) -> Result<(), BuildError> {
+        let mut checked = Checked::default();
         for solid in &model.solids {
-            let check = kept.check_solid(model, solid, numbered, &|| watch.cancelled());
+            let faces = (numbered, &mut checked);
+            let check = kept.check_solid(model, solid, faces, &|| watch.cancelled());
             watch.go_on()?;
             if let Some(what) = unsound(model, &check) {
                 return Err(BuildError::Unsound { solid: solid.name.clone(), what });

@@ -1,6 +1,6 @@
 //! The map from the box in which a turn is drawn to space.
 
-use super::fibre::{FANS, Fibres, Form, MOST_UNLIKE, Straight};
+use super::fibre::{Fibres, Form, MOST_UNLIKE, Straight, fans};
 use super::{TurnRefusal, TurnSection};
 use crate::build::BuildError;
 use coolinggen_nurbs::{ArcLength, Interpolator, ParametricSurface, Surface};
@@ -134,13 +134,13 @@ fn fan_out(fibres: &mut [Fibres<'_>], form: Form) -> Result<(), TurnRefusal> {
             continue;
         }
         let mut refusal = None;
-        let mut out = |fan: &&(Straight, f64)| {
-            let fanned = fibres.iter_mut().try_for_each(|f| f.fan_out(end, **fan));
+        let mut out = |fan: &(Straight, f64)| {
+            let fanned = fibres.iter_mut().try_for_each(|f| f.fan_out(end, *fan));
             let reached = fanned.is_ok() && fibres.iter().all(|f| f.reaches(end));
             refusal = refusal.take().or(fanned.err());
             reached
         };
-        match FANS.iter().find(&mut out) {
+        match fans().find(&mut out) {
             // Towards both ends.
             Some((Straight::None, _)) => return Ok(()),
             Some(_) => {}

@@ -51,23 +51,19 @@ pub(crate) const FORMS: [Form; 4] = [
     Form::Fanned(Straight::Share(0.1)),
 ];
 
-/// How many times farther one side may seem to reach than the other where fibres must fan out.
+/// Where fibres may begin to fan out, tried in turn.
+const STARTS: [Straight; 5] =
+    [Straight::Share(0.3), Straight::Share(0.2), Straight::Share(0.1), Straight::Share(0.05), Straight::None];
+/// How many times farther one side may seem to reach than the other from where fibres begin to fan out; tried in turn.
+const UNLIKE: [f64; 2] = [3.0, MOST_UNLIKE];
+/// The most that is tried.
 pub(super) const MOST_UNLIKE: f64 = 8.0;
 
-/// Where fibres may begin to fan out, and how many times farther one side may seem to reach from there than the other;
-/// tried in turn.
-pub(super) const FANS: [(Straight, f64); 10] = [
-    (Straight::Share(0.3), 3.0),
-    (Straight::Share(0.2), 3.0),
-    (Straight::Share(0.1), 3.0),
-    (Straight::Share(0.05), 3.0),
-    (Straight::None, 3.0),
-    (Straight::Share(0.3), MOST_UNLIKE),
-    (Straight::Share(0.2), MOST_UNLIKE),
-    (Straight::Share(0.1), MOST_UNLIKE),
-    (Straight::Share(0.05), MOST_UNLIKE),
-    (Straight::None, MOST_UNLIKE),
-];
+/// Fans in the order in which they are tried: where they may begin, and how unlike the sides may be.
+pub(super) fn fans() -> impl Iterator<Item = (Straight, f64)> {
+    UNLIKE.into_iter().flat_map(|unlike| STARTS.map(|start| (start, unlike)))
+}
+
 /// How far a continued side may turn beside a fan, relative to what is left to turn of the nose between the sides.
 const SHARE_TURNED: f64 = 0.2;
 

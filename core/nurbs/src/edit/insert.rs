@@ -70,8 +70,11 @@ impl<V: VectorSpace> Surface<V> {
         let rows = self.points.chunks_exact(self.knots_v.control_count());
         let mut net = Vec::with_capacity(self.points.len());
         let mut knots_v = None;
+        let mut curve = Curve { knots: self.knots_v.clone(), points: Vec::new() };
         for row in rows {
-            let edited = edit(&Curve { knots: self.knots_v.clone(), points: row.to_vec() })?;
+            curve.points.clear();
+            curve.points.extend_from_slice(row);
+            let edited = edit(&curve)?;
             net.extend_from_slice(&edited.points);
             knots_v = Some(edited.knots);
         }

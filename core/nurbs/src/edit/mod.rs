@@ -4,9 +4,12 @@
 //! come for free: their methods edit the homogeneous B-spline and check that its weights stay positive.
 
 mod bezier;
+mod compose;
 mod elevate;
 mod extend;
 mod insert;
+mod lower;
+mod product;
 mod reduce;
 mod remove;
 mod split;

@@ -122,6 +122,25 @@ impl<V: VectorSpace> Rows<V> {
 }
 
 impl<V: VectorSpace> Curve<V> {
+    /// The curve with interior knots removed until each occurs as often as `multiplicity` says, for a curve that is known
+    /// to be smooth enough: exact up to rounding.
+    pub(super) fn with_multiplicities(
+        &self,
+        multiplicity: impl Fn(f64) -> usize,
+    ) -> Result<Self, NurbsError> {
+        let mut rows = Rows::new(&self.knots, vec![self.points.clone()]);
+        let breaks = rows.breaks.clone();
+        for &t in &breaks[1..breaks.len() - 1] {
+            for _ in multiplicity(t)..self.knots.multiplicity(t) {
+                let index = rows.values.partition_point(|&k| k <= t) - 1;
+                let removal = rows.removal(index);
+                rows.apply(removal);
+            }
+        }
+        let points = rows.rows.swap_remove(0);
+        Self::new(Knots::new(self.degree(), rows.values)?, points)
+    }
+
     /// The curve with one occurrence of the interior knot `t` removed, and a bound on how far any point moves.
     ///
     /// # Errors
@@ -163,7 +182,7 @@ impl<V: VectorSpace> Curve<V> {
     }
 }
 
-fn check_continuous(knots: &Knots) -> Result<(), NurbsError> {
+pub(super) fn check_continuous(knots: &Knots) -> Result<(), NurbsError> {
     let (start, end) = knots.domain();
     let (p, k) = (knots.degree(), knots.values());
     match (p..k.len()).find(|&i| k[i] == k[i - p] && k[i] > start && k[i] < end) {

@@ -23,8 +23,11 @@ impl<V: VectorSpace> Curve<V> {
             return Err(NurbsError::OutOfDomain { value: b, start: a, end });
         }
         let degree = self.degree();
-        let mut values = self.knots.values().to_vec();
-        let mut points = self.points.clone();
+        // From the span of `a` to that of `b`: what is farther out has no part in it.
+        let knots = self.knots.values();
+        let (first, end) = (knots.partition_point(|&k| k <= a) - 1, knots.partition_point(|&k| k < b));
+        let mut values = knots[first - degree..end + degree + 1].to_vec();
+        let mut points = self.points[first - degree..end].to_vec();
         for t in [a, b] {
             for _ in values.iter().filter(|&&k| k == t).count()..degree {
                 insert_once(degree, &mut values, &mut points, t);

@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 use coolinggen_brep::Model;
-use coolinggen_exporters::IgesForm;
+use coolinggen_exporters::{IgesForm, StepSchema};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -12,6 +12,9 @@ use serde::Deserialize;
 pub(crate) enum Format {
     /// STEP AP214, exact
     Step,
+    /// STEP AP242, exact, faces named by shape aspects, too
+    #[value(name = "step_ap242")]
+    StepAp242,
     /// OpenCASCADE's own format, exact and fastest to read
     Brep,
     /// IGES 5.3, solids whose faces share edges, with the table of panels for CENTAUR
@@ -44,6 +47,7 @@ impl Format {
     pub(super) fn extension(self) -> &'static str {
         match self {
             Self::Step => "step",
+            Self::StepAp242 => "ap242.step",
             Self::Brep => "brep",
             Self::Iges => "igs",
             Self::IgesSurfaces => "surfaces.igs",
@@ -62,6 +66,14 @@ impl Format {
             Self::Iges => Some(IgesForm::Solids),
             Self::IgesSurfaces => Some(IgesForm::TrimmedSurfaces),
             _ => None,
+        }
+    }
+
+    /// The application protocol of a STEP file of this format.
+    pub(super) fn step_schema(self) -> StepSchema {
+        match self {
+            Self::StepAp242 => StepSchema::Ap242,
+            _ => StepSchema::Ap214,
         }
     }
 

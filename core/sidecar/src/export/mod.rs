@@ -2,7 +2,6 @@
 
 mod format;
 
-use coolinggen_brep::FaceId;
 use coolinggen_cooling::Generated;
 use coolinggen_cooling::report::FaceReport;
 use coolinggen_exporters as exporters;
@@ -58,9 +57,17 @@ impl ExportFailure {
 impl Export<'_> {
     /// Steps that [`Export::write`] tells at most.
     pub(crate) fn steps(&self) -> usize {
-        let (whole, parts): (Vec<Format>, Vec<Format>) = self.formats.iter().partition(|f| f.is_whole());
-        let files = parts.len() + usize::from(parts.iter().any(|f| f.iges_form().is_some()));
-        files * self.solids.len() + 2 * whole.len() + usize::from(self.needs_mesh()) + 1
+        let of_format = |format: &Format| match format {
+            // A case is one step, however many files it has.
+            Format::Openfoam => 1,
+            // The shape, the script.
+            Format::Gmsh => 2,
+            // With the materials, with the table of panels.
+            Format::Obj | Format::Iges | Format::IgesSurfaces => 2 * self.solids.len(),
+            _ => self.solids.len(),
+        };
+        let files: usize = self.formats.iter().map(of_format).sum();
+        files + usize::from(self.needs_mesh()) + 1
     }
 
     fn needs_mesh(&self) -> bool {
@@ -85,8 +92,9 @@ impl Export<'_> {
         } else {
             Tessellation::default()
         };
+        let places = places(generated);
         let mut writing =
-            Writing { export: self, generated, mesh, step, written: Vec::new(), listed: Vec::new() };
+            Writing { export: self, generated, places, mesh, step, written: Vec::new(), listed: Vec::new() };
         for choice in self.solids {
             let names = choice.names(&generated.blade.model);
             let kept = |f: &&Format| !f.is_whole() && (*choice != SolidChoice::Assembly || f.holds_solids());
@@ -108,6 +116,8 @@ type Out<'a> = Stoppable<'a, BufWriter<File>>;
 struct Writing<'a> {
     export: &'a Export<'a>,
     generated: &'a Generated,
+    /// What is known of each face.
+    places: Vec<FacePlace>,
     /// Without a triangle where no format needs any.
     mesh: Tessellation,
     step: &'a mut dyn FnMut(&str),
@@ -116,14 +126,28 @@ struct Writing<'a> {
 }
 
 impl Writing<'_> {
-    /// Writes a file of the folder in one piece or not at all.
+    /// A step: a file of the folder.
     fn file(
         &mut self,
         name: &str,
         write: impl FnOnce(&Self, &mut Out<'_>) -> Result<(), ExportError>,
     ) -> Result<(), ExportFailure> {
+        self.tell(name);
+        self.place(name, write)
+    }
+
+    /// Tells of a step that makes the file or the folder of this name.
+    fn tell(&mut self, name: &str) {
+        (self.step)(&self.export.folder.join(name).display().to_string());
+    }
+
+    /// Writes a file of the folder in one piece or not at all.
+    fn place(
+        &mut self,
+        name: &str,
+        write: impl FnOnce(&Self, &mut Out<'_>) -> Result<(), ExportError>,
+    ) -> Result<(), ExportFailure> {
         let path = self.export.folder.join(name);
-        (self.step)(&path.display().to_string());
         write_atomically(&path, |out| write(self, &mut Stoppable { out, stop: self.export.stop }))
             .map_err(|e| ExportFailure::new("write", &path, e))?;
         self.written.push(path);
@@ -143,8 +167,12 @@ impl Writing<'_> {
             self.file(&library, |_, out| exporters::write_mtl(model, names, out))?;
         }
         self.file(&file, |this, out| match format {
-            Format::Step => {
-                let options = StepOptions { name: stem.clone(), ..StepOptions::default() };
+            Format::Step | Format::StepAp242 => {
+                let options = StepOptions {
+                    name: stem.clone(),
+                    schema: format.step_schema(),
+                    ..StepOptions::default()
+                };
                 exporters::write_step(model, names, &options, out)
             }
             Format::Brep => exporters::write_brep(model, names, out),
@@ -200,17 +228,9 @@ impl Writing<'_> {
 
     /// The files of a case, in a folder of their own.
     fn openfoam_case(&mut self, folder: &str) -> Result<(), ExportFailure> {
-        let Generated { blade, grouping, report, .. } = self.generated;
-        let mut features = vec![None; grouping.groups().len()];
-        for (face, feature) in report.feature_sizes_mm().into_iter().enumerate() {
-            let least: &mut Option<f64> = &mut features[grouping.index_of(FaceId(face))];
-            *least = [*least, feature].into_iter().flatten().reduce(f64::min);
-        }
-        let options = CaseOptions {
-            is_fluid: &|solid| solid.starts_with("coolant/"),
-            is_open: &|role| ["_inlet", "_outlet", "_exit"].iter().any(|end| role.ends_with(end)),
-            features_mm: &features,
-        };
+        self.tell(folder);
+        let Generated { blade, grouping, .. } = self.generated;
+        let options = CaseOptions { is_fluid: &|solid| solid.starts_with("coolant/"), places: &self.places };
         let path = self.export.folder.join(folder);
         let files = exporters::openfoam_case(&blade.model, &self.mesh, grouping, &options)
             .map_err(|e| ExportFailure::new("write", &path, e))?;
@@ -219,7 +239,7 @@ impl Writing<'_> {
             let parent = self.export.folder.join(&path);
             let parent = parent.parent().unwrap_or(self.export.folder);
             std::fs::create_dir_all(parent).map_err(|e| ExportFailure::new("make the folder", parent, e))?;
-            self.file(&path, |_, out| Ok(out.write_all(&content)?))?;
+            self.place(&path, |_, out| Ok(out.write_all(&content)?))?;
         }
         Ok(())
     }
@@ -228,16 +248,20 @@ impl Writing<'_> {
     fn manifest(&mut self) -> Result<(), ExportFailure> {
         let Generated { blade, grouping, report, .. } = self.generated;
         self.file(&manifest_name(&report.name), |this, out| {
-            let place = |(face, feature_mm): (&FaceReport, Option<f64>)| FacePlace {
-                area_mm2: face.area_mm2,
-                centroid_mm: face.centroid_mm,
-                feature_mm,
-            };
-            let places = report.faces.iter().zip(report.feature_sizes_mm()).map(place);
-            let places: Vec<FacePlace> = places.collect();
-            Ok(writeln!(out, "{:#}", manifest(&blade.model, grouping, &places, &this.listed))?)
+            Ok(writeln!(out, "{:#}", manifest(&blade.model, grouping, &this.places, &this.listed))?)
         })
     }
+}
+
+/// What the report knows of each face.
+fn places(generated: &Generated) -> Vec<FacePlace> {
+    let report = &generated.report;
+    let place = |(face, feature_mm): (&FaceReport, Option<f64>)| FacePlace {
+        area_mm2: face.area_mm2,
+        centroid_mm: face.centroid_mm,
+        feature_mm,
+    };
+    report.faces.iter().zip(report.feature_sizes_mm()).map(place).collect()
 }
 
 fn manifest_name(design: &str) -> String {

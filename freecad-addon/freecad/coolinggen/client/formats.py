@@ -3,6 +3,7 @@
 #: Title and purpose of each, by the sidecar's name.
 FORMATS = {
     "step": ("STEP", "Exact solids for CAD"),
+    "step_ap242": ("STEP AP242", "Exact solids, faces named by shape aspects, too"),
     "brep": ("BREP", "Exact solids for programs with Open CASCADE, quick to read"),
     "iges": ("IGES solids", "Solids with named panels for CENTAUR"),
     "iges_surfaces": ("IGES surfaces", "Trimmed surfaces for readers without solids"),

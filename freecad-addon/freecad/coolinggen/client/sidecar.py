@@ -9,6 +9,7 @@ import json
 import os
 import queue
 import shutil
+import signal
 import subprocess
 import threading
 from collections.abc import Callable
@@ -67,6 +68,26 @@ def _executable(program: Path) -> None:
         # Where it can't be had, starting the program says so.
         with contextlib.suppress(OSError):
             program.chmod(program.stat().st_mode | 0o755)
+
+
+@contextlib.contextmanager
+def _broken_pipes_are_errors():
+    """Makes writing to a program that has ended an ``OSError``, whatever the host does with SIGPIPE.
+
+    A stand-alone Python ignores that signal. A program that embeds one may leave it as it is, and then
+    ends with the sidecar: FreeCAD 1.0 does. Only this thread holds the signal back.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGPIPE})
+    try:
+        yield
+    finally:
+        if signal.SIGPIPE not in before:
+            if signal.SIGPIPE in signal.sigpending():
+                signal.sigwait({signal.SIGPIPE})
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 class Sidecar:
@@ -157,7 +178,7 @@ class Sidecar:
     def _send(self, message: dict) -> None:
         line = json.dumps({"jsonrpc": "2.0", **message}, allow_nan=False)
         try:
-            with self._writing:
+            with self._writing, _broken_pipes_are_errors():
                 self._process.stdin.write(line + "\n")
                 self._process.stdin.flush()
         except (OSError, ValueError) as error:
@@ -183,7 +204,7 @@ class Sidecar:
 
     def close(self) -> None:
         """Ends it."""
-        with self._writing:
+        with self._writing, _broken_pipes_are_errors():
             if not self._process.stdin.closed:
                 # It may be dead already.
                 with contextlib.suppress(OSError):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import FreeCAD as App
 import Part
-from freecad.coolinggen import blade, service, source
+from freecad.coolinggen import blade, faces, service, source
 from freecad.coolinggen.client.sidecar import CancelledError, MissingError, RefusedError, Sidecar, find
 
 
@@ -47,6 +47,27 @@ class BladeInDocument(unittest.TestCase):
             for name, face in zip(solid.FaceNames, shape.Faces, strict=True):
                 away = face.CenterOfMass - App.Vector(*named[name]["centroid_mm"])
                 self.assertLess(away.Length, 1e-3 * named[name]["area_mm2"] ** 0.5, name)
+
+    def test_groups_for_boundary_conditions_are_those_of_the_files(self):
+        design = template()
+        design["groups"] = [{"faces": "blade/*_side", "name": "airfoil"}]
+        made = blade.new(self.document, design)
+        group = faces.groups(made)
+        with tempfile.TemporaryDirectory() as folder:
+            model = blade.request(made).model
+            server = service.sidecar()
+            server.call("design/generate", model=model, design=design, report=False)
+            server.call("model/export", model=model, folder=folder, formats=["nastran"], solids=["metal"])
+            (manifest,) = Path(folder).glob("*.groups.json")
+            known = json.loads(manifest.read_text(encoding="utf-8"))["faces"]
+        expected = {(f"{solid}: {face['group']}", face["name"]) for face in known for solid in face["solids"]}
+        found = set()
+        for member in group.Group:
+            child, names = member.References
+            found |= {(member.Label, faces.name_of(child, name)) for name in names}
+        self.assertEqual(found, expected)
+        self.assertIn("metal: airfoil", {member.Label for member in group.Group})
+        self.assertIn("airfoil", faces.regions(made))
 
     def test_a_changed_design_keeps_names_and_place(self):
         made = blade.new(self.document, template())

@@ -2,7 +2,6 @@
 
 use super::Confirmer;
 use super::interior::{Place, law};
-use super::slice::SidePoint;
 use coolinggen_nurbs::ParametricSurface;
 use glam::DVec3;
 use serde_json::Value;
@@ -70,22 +69,13 @@ impl Confirmer {
     fn on_surface(&self, row: &Value, v: f64) -> Option<(DVec3, DVec3, DVec3)> {
         let slice = self.slices.near(v)?;
         let side = usize::from(row["side"] == "pressure_side");
-        let points: &[SidePoint] = &slice.sides[side];
+        let points = slice.side_with_nose(side);
+        let ahead = points.len() - slice.sides[side].len();
         let index = match (row.get("camber_position"), row.get("surface_distance")) {
-            (Some(place), _) => slice.camber_at(law(place)?.at(v)).2.touches[side],
+            (Some(place), _) => ahead + slice.camber_at(law(place)?.at(v)).2.touches[side],
             (None, Some(distance)) => {
-                // From the foremost point, which lies on the nose.
-                let tail = points[points.len() - 1].at;
-                let far = (0..slice.nose.len())
-                    .max_by(|&i, &j| slice.nose[i].distance(tail).total_cmp(&slice.nose[j].distance(tail)))?;
-                let round = if side == 0 { &slice.nose[far..] } else { &slice.nose[..=far] };
                 let wanted = law(distance)?.at(v) / slice.scale;
-                let mut run: f64 = round.windows(2).map(|p| p[0].distance(p[1])).sum();
-                // Holes of a showerhead stand on the nose itself: their axes are not confirmed here.
-                if wanted < run {
-                    return None;
-                }
-                let mut k = 0;
+                let (mut run, mut k) = (0.0, 0);
                 while run < wanted && k + 2 < points.len() {
                     run += points[k].at.distance(points[k + 1].at);
                     k += 1;
@@ -101,7 +91,7 @@ impl Confirmer {
             slice.surface.to_space(points[index + 1].at) - slice.surface.to_space(points[index - 1].at);
         let (_, du, dw) = self.slices.blade.surface.first_derivatives(p.u, p.w);
         let normal = du.cross(dw).normalize();
-        let touching = slice.camber.iter().min_by_key(|c| c.touches[side].abs_diff(index))?;
+        let touching = slice.camber.iter().min_by_key(|c| (ahead + c.touches[side]).abs_diff(index))?;
         let inside = slice.surface.to_space(touching.centre);
         let normal = if normal.dot(inside - point) > 0.0 { -normal } else { normal };
         let downstream = (along - normal * along.dot(normal)).normalize();
@@ -194,7 +184,6 @@ impl Confirmer {
     /// exits, mm.
     pub(super) fn nearest_hole(&self, row: usize, number: usize) -> Option<f64> {
         let rows = self.cooling["film_rows"].as_array()?;
-        // Rows of a showerhead have no axes here.
         let all: Vec<Vec<Axis>> = rows.iter().map(|r| self.axes(r).unwrap_or_default()).collect();
         let one = all.get(row)?.get(number.checked_sub(1)?)?;
         let length = |row: usize| {

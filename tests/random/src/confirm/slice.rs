@@ -75,7 +75,8 @@ pub(super) struct Slice {
     pub(super) scale: f64,
     /// Suction side and pressure side, from front to back.
     pub(super) sides: [Vec<SidePoint>; 2],
-    pub(super) nose: Vec<DVec2>,
+    /// Round the leading edge, from the pressure side to the suction side.
+    pub(super) nose: Vec<SidePoint>,
     pub(super) camber: Vec<Circle>,
 }
 
@@ -96,7 +97,7 @@ impl Slice {
         let suction = points(blade.range(Region::SuctionSide)?, 0.0)?;
         let mut pressure = points(blade.range(Region::PressureSide)?, -1.0)?;
         pressure.reverse();
-        let nose: Vec<DVec2> = points(blade.range(Region::LeadingEdge)?, 0.0)?.iter().map(|p| p.at).collect();
+        let nose = points(blade.range(Region::LeadingEdge)?, 0.0)?;
         let scale = surface.scale(suction[POINTS / 2].at.lerp(pressure[POINTS / 2].at, 0.5));
         let camber = camber(&suction, &pressure, &nose);
         (camber.len() > 10).then_some(Self { surface, scale, sides: [suction, pressure], nose, camber })
@@ -105,7 +106,23 @@ impl Slice {
     /// Distances in space to suction side, pressure side and nose, mm.
     pub(super) fn distances(&self, q: DVec2) -> [f64; 3] {
         let side = |k: usize| to_polyline(q, self.sides[k].iter().map(|p| p.at)) * self.scale;
-        [side(0), side(1), to_polyline(q, self.nose.iter().copied()) * self.scale]
+        [side(0), side(1), to_polyline(q, self.nose.iter().map(|p| p.at)) * self.scale]
+    }
+
+    /// The points of a side from the foremost one, which lies on the nose, to the trailing edge.
+    pub(super) fn side_with_nose(&self, side: usize) -> Vec<SidePoint> {
+        let points = &self.sides[side];
+        let tail = points[points.len() - 1].at;
+        let away = |i: &usize| self.nose[*i].at.distance(tail);
+        let far = (0..self.nose.len()).max_by(|i, j| away(i).total_cmp(&away(j))).unwrap_or(0);
+        // The last point of the nose is the side's first.
+        let mut round: Vec<SidePoint> = match side {
+            0 => self.nose[far..].to_vec(),
+            _ => self.nose[..=far].iter().rev().copied().collect(),
+        };
+        round.pop();
+        round.extend(points);
+        round
     }
 
     /// Centre and unit tangent of the camber line at a fraction, and the circle nearest to it.
@@ -134,7 +151,7 @@ fn to_polyline(q: DVec2, points: impl Iterator<Item = DVec2>) -> f64 {
     least.sqrt()
 }
 
-fn camber(suction: &[SidePoint], pressure: &[SidePoint], nose: &[DVec2]) -> Vec<Circle> {
+fn camber(suction: &[SidePoint], pressure: &[SidePoint], nose: &[SidePoint]) -> Vec<Circle> {
     let inwards = pressure[POINTS / 2].at - suction[POINTS / 2].at;
     let along = (suction[POINTS / 2 + 1].at - suction[POINTS / 2 - 1].at).perp();
     let sign = along.dot(inwards).signum();
@@ -146,7 +163,7 @@ fn camber(suction: &[SidePoint], pressure: &[SidePoint], nose: &[DVec2]) -> Vec<
             let toward = d.dot(normal);
             if toward > 1e-9 { d.length_squared() / (2.0 * toward) } else { f64::INFINITY }
         };
-        let at_nose = nose.iter().map(|q| through(*q)).fold(f64::INFINITY, f64::min);
+        let at_nose = nose.iter().map(|q| through(q.at)).fold(f64::INFINITY, f64::min);
         let radii = pressure.iter().map(|p| through(p.at)).enumerate();
         let Some((j, radius)) = radii.min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
         let radius = radius.min(at_nose);

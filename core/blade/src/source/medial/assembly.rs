@@ -1,10 +1,10 @@
 //! From the sides to a closed blade.
 
 use super::closing;
-use super::spec::{ClosingSpec, KnotsSpec, SkinSpec};
+use super::spec::{ClosingSpec, KnotsSpec, SkinMethod, SkinSpec, not_composed};
 use crate::blade::{Blade, FitReport, Region};
 use crate::fault::{Fault, Pointer};
-use crate::medial::{Skin, SkinSize, Tip, TwoSided};
+use crate::medial::{Composition, Skin, SkinSize, Tip, TwoSided};
 use crate::source::assemble;
 use crate::source::closed::surgery::{glued, rebased};
 use crate::stream::StreamSpace;
@@ -48,12 +48,20 @@ pub(super) fn blade(
         let deviation = skin.deviation(sides, GRID[0], GRID[1]).map_err(failed)?;
         Ok::<_, Vec<Fault>>((skin, deviation))
     };
-    let (skin, deviation) = match spec.control_points {
-        Some(counts) => {
+    let mut notes = finish.notes;
+    let (skin, deviation) = match (spec.method, spec.control_points) {
+        (SkinMethod::Composed, _) => {
+            let composition =
+                sides.composition(pressure, spec.tolerance).ok_or_else(|| vec![not_composed()])?;
+            let composition = composition.map_err(not_joined)?;
+            notes.push(composition_note(&composition));
+            measured(Skin::composed(&composition, pressure, spec.degree, spec.tolerance))?
+        }
+        (SkinMethod::Fitted, Some(counts)) => {
             let optimised = spec.knots == KnotsSpec::Optimised;
             measured(Skin::new(sides, pressure, SkinSize { degree: spec.degree, counts, optimised }))?
         }
-        None => {
+        (SkinMethod::Fitted, None) => {
             let within = |(fineness, share)| {
                 measured(Skin::within(sides, pressure, spec.degree, share * spec.tolerance, fineness))
             };
@@ -80,7 +88,6 @@ pub(super) fn blade(
     let (closed, regions) = closed(&skin, nose, finish.closing, sides.tip()).map_err(failed)?;
     let surface =
         assemble::reaching(BladeSurface::BSpline(closed), space, &Pointer::root().at(finish.blamed))?;
-    let mut notes = finish.notes;
     notes.push(format!(
         "both sides by {count_u} x {count_v} control points of degree {} x {}: average error {:.2e} mm, greatest {:.2e} mm",
         spec.degree[0], spec.degree[1], deviation.average, deviation.greatest
@@ -93,6 +100,33 @@ pub(super) fn blade(
         ..assemble::report(&surface)
     };
     Ok(Blade { surface, regions, outward, fit })
+}
+
+/// What is to be reported of a composition.
+fn composition_note(composition: &Composition) -> String {
+    let surface = &composition.surface;
+    let (count_u, count_v) = surface.counts();
+    let (p, q) = (surface.knots_u().degree(), surface.knots_v().degree());
+    format!(
+        "composed of {count_u} x {count_v} control points of degree {p} x {q}, the scales within {:.1e} mm",
+        composition.residual
+    )
+}
+
+/// Sides without a derivative in common at the leading edge.
+fn not_joined(e: NurbsError) -> Vec<Fault> {
+    match e {
+        NurbsError::NoConvergence { residual, .. } => {
+            let message = format!(
+                "the thickness of the two sides is not in one ratio along the span: composed, they would join {residual:.1e} \
+                 mm from a common tangent"
+            );
+            let at = Pointer::root().at("skin").at("method");
+            let fault = Fault::new(at, "no_composition", message).value("composed");
+            vec![fault.hint("fitted, or a pressure side's thickness in proportion to the suction side's")]
+        }
+        e => failed(e),
+    }
 }
 
 pub(super) fn failed(e: NurbsError) -> Vec<Fault> {

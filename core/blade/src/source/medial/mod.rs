@@ -10,6 +10,6 @@ mod table;
 mod turbine;
 
 pub use propeller::PropellerSource;
-pub use spec::{ClosingSpec, KnotsSpec, ProfileSpec, SideSpec, SkinSpec};
+pub use spec::{ClosingSpec, KnotsSpec, ProfileSpec, SideSpec, SkinMethod, SkinSpec};
 pub use table::{Hand, MeanLine, PropellerRow, PropellerTableSource, ThicknessForm};
 pub use turbine::TurbineSource;

@@ -128,7 +128,7 @@ impl PropellerSource {
             pointed,
             &mut faults,
         );
-        self.skin.check(&mut faults);
+        self.skin.check(false, &mut faults);
         let tip = contour.as_ref().and_then(|c| tip(c, &mut faults));
         match contour.zip(sections).zip(tip) {
             Some(((contour, sections), tip)) if faults.is_empty() => Ok(Plan { contour, sections, tip }),

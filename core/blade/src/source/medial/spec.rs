@@ -59,6 +59,9 @@ pub enum ClosingSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SkinSpec {
+    /// How the surface is made.
+    #[serde(default)]
+    pub method: SkinMethod,
     /// Degrees around the blade and along it, 2 to 9.
     #[serde(default = "cubic")]
     pub degree: [usize; 2],
@@ -84,8 +87,26 @@ fn close() -> f64 {
 
 impl Default for SkinSpec {
     fn default() -> Self {
-        Self { degree: cubic(), control_points: None, knots: KnotsSpec::default(), tolerance: close() }
+        Self {
+            method: SkinMethod::default(),
+            degree: cubic(),
+            control_points: None,
+            knots: KnotsSpec::default(),
+            tolerance: close(),
+        }
     }
+}
+
+/// How a skin is made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SkinMethod {
+    /// Fitted to points of the sides: `control_points`, or as many as `tolerance` takes.
+    #[default]
+    Fitted,
+    /// Composed: the sides as one B-spline exactly, its degree reduced and knots removed within `tolerance`, which is
+    /// proved for every point. For turbine blades.
+    Composed,
 }
 
 /// Where knots are put.
@@ -100,9 +121,19 @@ pub enum KnotsSpec {
 }
 
 impl SkinSpec {
-    /// Faults of it, with pointers below `/skin`.
-    pub(super) fn check(&self, faults: &mut Vec<Fault>) {
+    /// Faults of it, with pointers below `/skin`; `composes` says whether sides of the source can be composed.
+    pub(super) fn check(&self, composes: bool, faults: &mut Vec<Fault>) {
         let at = Pointer::root().at("skin");
+        if self.method == SkinMethod::Composed {
+            if !composes {
+                faults.push(not_composed());
+            }
+            if self.control_points.is_some() {
+                let message = "a composed skin has as many control points as its tolerance takes";
+                let fault = Fault::new(at.at("control_points"), "excludes", message);
+                faults.push(fault.hint("leave `control_points` out, or let the skin be fitted"));
+            }
+        }
         let mut range = |key: &str, index: usize, value: usize, min: usize, max: usize| {
             if !(min..=max).contains(&value) {
                 let message = format!("must lie between {min} and {max}, but is {value}");
@@ -124,4 +155,13 @@ impl SkinSpec {
             faults.push(fault.value(self.tolerance).min(1e-5).max(1.0).unit("mm"));
         }
     }
+}
+
+/// Sides that are no composition of B-splines of moderate degree cannot be composed.
+pub(super) fn not_composed() -> Fault {
+    let message = "only sides of turbine blades can be composed: a propeller's medial surface is itself a composition of \
+                   two surfaces, of a degree that no reader takes";
+    Fault::new(Pointer::root().at("skin").at("method"), "no_composition", message)
+        .value("composed")
+        .hint("fitted")
 }

@@ -127,7 +127,7 @@ impl PropellerTableSource {
         let mut faults = self.check(space);
         let profile = sections::thickness(self.thickness_form).map_err(assembly::failed)?;
         let closing = read::closing(self.closing, [profile.tail(); 2], &mut faults);
-        self.skin.check(&mut faults);
+        self.skin.check(false, &mut faults);
         if !faults.is_empty() {
             return Err(faults);
         }

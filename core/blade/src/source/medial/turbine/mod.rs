@@ -133,7 +133,7 @@ impl TurbineSource {
             |_, _, _| (),
             &mut faults,
         );
-        self.skin.check(&mut faults);
+        self.skin.check(true, &mut faults);
         match contour.zip(sections) {
             Some((contour, sections)) if faults.is_empty() => Ok(Plan { contour, sections }),
             _ => Err(faults),
