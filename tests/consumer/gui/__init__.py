@@ -20,7 +20,12 @@ def install(home: Path, binary: Path) -> None:
 
 
 def play(
-    folder: Path, home: Path, scenarios: list[Path], wanted: str = "", patience_s: float = 60, limit_s: float = 400
+    folder: Path,
+    home: Path,
+    scenarios: list[Path],
+    wanted: str = "",
+    patience_s: float = 60,
+    limit_s: float = 400,
 ) -> dict:
     """Plays scenarios of these files in FreeCAD's window; pictures come into ``folder``, the result has for
     each scenario ``error``, ``notes`` and ``seconds``.

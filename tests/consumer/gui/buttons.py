@@ -30,8 +30,6 @@ def _accepted(user):
     yield _closed
     told = json.loads(_blade().Report)["solids"]
     user.notes["off"] = max(abs(v / told[n]["volume_mm3"] - 1) for n, v in _volumes().items())
-    user.notes["each"] = {n: (v, told[n]["volume_mm3"]) for n, v in _volumes().items()}
-    (FOLDER / "design.json").write_text(_blade().Design)
     user.notes["valid"] = all(child.Shape.isValid() for child in _blade().Solids)
     user.notes["label"] = _blade().Label
 
