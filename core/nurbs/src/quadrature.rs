@@ -20,6 +20,20 @@ pub(crate) fn gauss(n: usize) -> Vec<(f64, f64)> {
     (0..n).map(rule).collect()
 }
 
+/// Nodes and weights of the rule with `n` points on every span between `breaks`.
+pub(crate) fn gauss_on_spans(breaks: &[f64], n: usize) -> (Vec<f64>, Vec<f64>) {
+    let rule = gauss(n);
+    let (mut nodes, mut weights) = (Vec::new(), Vec::new());
+    for span in breaks.windows(2) {
+        let half = 0.5 * (span[1] - span[0]);
+        for &(x, w) in &rule {
+            nodes.push(0.5 * (span[0] + span[1]) + half * x);
+            weights.push(w * half);
+        }
+    }
+    (nodes, weights)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -35,8 +35,12 @@ impl Composition {
         let (scales, residual) = functions([0, 1].map(|k| &sides.sides[k].scale), SCALES * tolerance)?;
         let profiles = [0, 1].map(|k| sides.sides[k].profile.heights());
         let profiles = <[_; 2]>::from(profiles[0].compatible(&profiles[1])?);
-        let [a, b] = [first, 1 - first].map(|k| side(sides, k, &profiles[k], &scales[k]));
-        let (a, b) = (a?, b?);
+        // Sides of one profile share u(t).
+        let own = paced(sides, first)?;
+        let shared = sides.sides[0].profile == sides.sides[1].profile;
+        let other = if shared { own.clone() } else { paced(sides, 1 - first)? };
+        let a = side(&own, SIGN[first], &profiles[first], &scales[first])?;
+        let b = side(&other, SIGN[1 - first], &profiles[1 - first], &scales[1 - first])?;
         let speed = [first, 1 - first].map(|k| sides.nose(k).0);
         let nose = speed[0] / (speed[0] + speed[1]);
         let columns = (0..a.counts().1).map(|j| {
@@ -62,20 +66,24 @@ impl Composition {
     }
 }
 
-/// Side `k` over t and v.
+/// m(u(t), v) and n(u(t), v) for the u(t) of side `k`.
+fn paced(sides: &Sides, k: usize) -> Result<[Surface<DVec3>; 2], NurbsError> {
+    let pace = sides.sides[k].pace.curve();
+    Ok([sides.medial.surface.composed_u(pace)?, sides.medial.normals.composed_u(pace)?])
+}
+
+/// A side over t and v, along the normals (`sign` 1) or against them (-1).
 fn side(
-    sides: &Sides,
-    k: usize,
+    [medial, normals]: &[Surface<DVec3>; 2],
+    sign: f64,
     profile: &Curve<f64>,
     scale: &Curve<f64>,
 ) -> Result<Surface<DVec3>, NurbsError> {
-    let pace = sides.sides[k].pace.curve();
     // The medial surface times one, so that degrees and knots are those of what is added to it.
     let one = |f: &Curve<f64>| f.map(|_| 1.0);
-    let medial = &sides.medial;
-    let middle = medial.surface.composed_u(pace)?.times_v(&one(scale))?.times_u(&one(profile))?;
-    let lift = medial.normals.composed_u(pace)?.times_v(scale)?.times_u(profile)?;
-    let points = middle.points().iter().zip(lift.points()).map(|(m, l)| *m + *l * SIGN[k]);
+    let middle = medial.times_v(&one(scale))?.times_u(&one(profile))?;
+    let lift = normals.times_v(scale)?.times_u(profile)?;
+    let points = middle.points().iter().zip(lift.points()).map(|(m, l)| *m + *l * sign);
     let (knots_u, knots_v) = (middle.knots_u().clone(), middle.knots_v().clone());
     Surface::new(knots_u, knots_v, points.collect())
 }

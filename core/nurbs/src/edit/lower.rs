@@ -6,7 +6,7 @@ use crate::curve::Curve;
 use crate::error::NurbsError;
 use crate::fit::{Constraint, LeastSquares};
 use crate::knots::{Basis, Knots};
-use crate::quadrature::gauss;
+use crate::quadrature::gauss_on_spans;
 use crate::surface::Surface;
 use crate::vector::VectorSpace;
 
@@ -49,14 +49,7 @@ impl<V: VectorSpace> Rows<V> {
     fn fitted(&self, knots: &Knots, cuts: &[f64]) -> Result<(Vec<Curve<V>>, Vec<f64>), NurbsError> {
         let own = self.curves[0].degree();
         // Exact for the product of a basis function with the distance.
-        let rule = gauss((own + self.degree) / 2 + 1);
-        let place = |ends: &[f64], x: f64| 0.5 * (ends[0] + ends[1]) + 0.5 * (ends[1] - ends[0]) * x;
-        let parameters: Vec<f64> =
-            cuts.windows(2).flat_map(|ends| rule.iter().map(move |r| place(ends, r.0))).collect();
-        let weights: Vec<f64> = cuts
-            .windows(2)
-            .flat_map(|ends| rule.iter().map(move |r| 0.5 * (ends[1] - ends[0]) * r.1))
-            .collect();
+        let (parameters, weights) = gauss_on_spans(cuts, (own + self.degree) / 2 + 1);
         let (start, end) = knots.domain();
         let ends = [Constraint::derivative(knots, start, 0)?, Constraint::derivative(knots, end, 0)?];
         let problem = LeastSquares::new(knots.clone(), &parameters, Some(&weights), &ends, None)?;

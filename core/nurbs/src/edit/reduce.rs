@@ -4,7 +4,7 @@ use crate::curve::{Curve, ParametricCurve};
 use crate::error::NurbsError;
 use crate::fit::{Constraint, LeastSquares};
 use crate::knots::Knots;
-use crate::quadrature::gauss;
+use crate::quadrature::gauss_on_spans;
 use crate::surface::Surface;
 use crate::vector::VectorSpace;
 
@@ -35,15 +35,7 @@ impl<V: VectorSpace> Curve<V> {
         values.extend(std::iter::repeat_n(end, p));
         let knots = Knots::new(p - 1, values)?;
         // The integral of the squared distance, by a rule that is exact for it.
-        let rule = gauss(p + 1);
-        let (mut parameters, mut weights) = (Vec::new(), Vec::new());
-        for span in breaks.windows(2) {
-            let half = 0.5 * (span[1] - span[0]);
-            for &(x, w) in &rule {
-                parameters.push(0.5 * (span[0] + span[1]) + half * x);
-                weights.push(w * half);
-            }
-        }
+        let (parameters, weights) = gauss_on_spans(&breaks, p + 1);
         let ends = [Constraint::derivative(&knots, start, 0)?, Constraint::derivative(&knots, end, 0)?];
         let data: Vec<V> = parameters.iter().map(|&t| self.point(t)).collect();
         let problem = LeastSquares::new(knots, &parameters, Some(&weights), &ends, None)?;
